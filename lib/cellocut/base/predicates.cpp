@@ -1,0 +1,20 @@
+#include "cellocut/base/predicates.h"
+
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+
+namespace cellocut {
+
+namespace {
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+Kernel::Point_3 to_cgal(const Point3& p) { return {p[0], p[1], p[2]}; }
+}  // namespace
+
+int orientation(const Point3& a, const Point3& b, const Point3& c, const Point3& d) {
+  return static_cast<int>(CGAL::orientation(to_cgal(a), to_cgal(b), to_cgal(c), to_cgal(d)));
+}
+
+bool collinear(const Point3& a, const Point3& b, const Point3& c) {
+  return CGAL::collinear(to_cgal(a), to_cgal(b), to_cgal(c));
+}
+
+}  // namespace cellocut

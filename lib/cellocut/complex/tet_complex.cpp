@@ -1,0 +1,104 @@
+#include "cellocut/complex/tet_complex.h"
+
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_sort.h>
+
+#include <algorithm>
+
+#include "cellocut/base/errors.h"
+
+namespace cellocut {
+
+namespace {
+
+// The corners other than k, in the order in which they are seen counter-clockwise from outside.
+constexpr int kOutward[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
+
+struct FacetKey {
+  std::array<std::uint32_t, 3> corners;  // ascending
+  std::uint32_t side;                    // 4 * cell + corner that the facet is opposite to
+  auto operator<=>(const FacetKey&) const = default;
+};
+
+// Ascending corners, the last two swapped where that order is negatively oriented: the number of
+// transpositions that sort a positively oriented quadruple tells which.
+void sort_corners(std::array<std::uint32_t, 4>& cell) {
+  bool odd = false;
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3 - i; ++j) {
+      if (cell[j] > cell[j + 1]) {
+        std::swap(cell[j], cell[j + 1]);
+        odd = !odd;
+      }
+    }
+  }
+  if (odd) std::swap(cell[2], cell[3]);
+}
+
+std::array<std::uint32_t, 4> ascending(std::array<std::uint32_t, 4> cell) {
+  if (cell[2] > cell[3]) std::swap(cell[2], cell[3]);
+  return cell;
+}
+
+}  // namespace
+
+std::array<std::uint32_t, 3> facet_outward(const TetComplex& complex, std::uint32_t cell, int k) {
+  const std::array<std::uint32_t, 4>& corners = complex.cells[cell];
+  return {corners[kOutward[k][0]], corners[kOutward[k][1]], corners[kOutward[k][2]]};
+}
+
+std::array<std::uint32_t, 3> facet_corners(const TetComplex& complex, std::uint32_t cell, int k) {
+  std::array<std::uint32_t, 3> corners = facet_outward(complex, cell, k);
+  std::sort(corners.begin(), corners.end());
+  return corners;
+}
+
+Point3 cell_centroid(const TetComplex& complex, std::uint32_t cell) {
+  const std::array<std::uint32_t, 4> c = ascending(complex.cells[cell]);
+  return 0.25 * (((complex.points[c[0]] + complex.points[c[1]]) + complex.points[c[2]]) +
+                 complex.points[c[3]]);
+}
+
+double cell_volume(const TetComplex& complex, std::uint32_t cell) {
+  const std::array<std::uint32_t, 4>& c = complex.cells[cell];
+  return six_volumes(complex.points[c[0]], complex.points[c[1]], complex.points[c[2]],
+                     complex.points[c[3]]) /
+         6;
+}
+
+TetComplex make_canonical(std::vector<Point3> points,
+                          std::vector<std::array<std::uint32_t, 4>> cells,
+                          std::vector<std::uint32_t> first_copy) {
+  tbb::parallel_for(std::size_t{0}, cells.size(), [&](std::size_t c) { sort_corners(cells[c]); });
+  tbb::parallel_sort(cells.begin(), cells.end(),
+                     [](const auto& a, const auto& b) { return ascending(a) < ascending(b); });
+
+  TetComplex complex;
+  complex.points = std::move(points);
+  complex.cells = std::move(cells);
+  complex.first_copy = std::move(first_copy);
+
+  // Equal facets meet after sorting.
+  std::vector<FacetKey> facets(4 * complex.cells.size());
+  tbb::parallel_for(std::size_t{0}, complex.cells.size(), [&](std::size_t c) {
+    for (int k = 0; k < 4; ++k) {
+      facets[4 * c + k] = {facet_corners(complex, static_cast<std::uint32_t>(c), k),
+                           static_cast<std::uint32_t>(4 * c + k)};
+    }
+  });
+  tbb::parallel_sort(facets.begin(), facets.end());
+  complex.neighbours.assign(complex.cells.size(), {kOutside, kOutside, kOutside, kOutside});
+  for (std::size_t f = 0; f + 1 < facets.size(); ++f) {
+    if (facets[f].corners != facets[f + 1].corners) continue;
+    if (f + 2 < facets.size() && facets[f].corners == facets[f + 2].corners) {
+      throw Error("tetrahedralization: a facet belongs to three cells");
+    }
+    const std::uint32_t a = facets[f].side;
+    const std::uint32_t b = facets[f + 1].side;
+    complex.neighbours[a / 4][a % 4] = static_cast<std::int32_t>(b / 4);
+    complex.neighbours[b / 4][b % 4] = static_cast<std::int32_t>(a / 4);
+  }
+  return complex;
+}
+
+}  // namespace cellocut

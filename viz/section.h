@@ -1,0 +1,42 @@
+// A plane through labelled cells or surfaces as a picture: how a filled body is told from a hollow shell.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cellocut/base/point.h"
+#include "cellocut/mesh/triangle_soup.h"
+#include "viz/vtu_file.h"
+
+namespace cellocut::viz {
+
+// The points x with dot(normal, x) = offset. `normal` need not have unit length, but not be zero.
+struct Plane {
+  Point3 normal{0, 0, 1};
+  double offset = 0;
+};
+// "x=0.5", "y=50%" (per cent of the box's edge along that axis), or "nx,ny,nz,offset".
+// Errors: UsageError that says what is taken.
+Plane parse_plane(const std::string& text, const Box3& box);
+
+struct SectionLayers {
+  const LabelledCells* cells = nullptr;  // filled, one colour per value of `colour_by`
+  std::string colour_by = "label";       // a UInt8 or Int32 cell array
+  // Closed surfaces are filled by even-odd rule, all are drawn as lines.
+  std::vector<const TriangleSoup*> surfaces;
+};
+struct SectionStyle {
+  int width = 1200;       // pixels of the longer edge of the drawing
+  bool cell_edges = true; // thin lines between cells
+};
+
+enum class PictureFormat { png, svg };
+
+// The bytes of the picture: up direction and handedness fixed by the plane, a scale bar, a legend of the
+// values, the plane's equation. Errors: InputError where the plane misses everything or the array is not
+// there (it lists those that are).
+std::string draw_section(const SectionLayers& layers, const Plane& plane, const SectionStyle& style,
+                         PictureFormat format);
+
+}  // namespace cellocut::viz

@@ -32,6 +32,7 @@ function(cellocut_library target export_name)
   add_library(${target} STATIC ${ARG_SOURCES})
   add_library(CelloCut::${export_name} ALIAS ${target})
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${export_name})
+  target_compile_features(${target} PUBLIC cxx_std_20)
   cellocut_configure(${target})
   install(TARGETS ${target} EXPORT CelloCutExport
           ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})

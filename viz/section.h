@@ -1,4 +1,5 @@
-// A plane through labelled cells or surfaces as a picture: how a filled body is told from a hollow shell.
+// A plane through labelled cells or surfaces as a picture: how a filled body is told from a hollow
+// shell.
 #pragma once
 
 #include <optional>
@@ -25,17 +26,22 @@ struct SectionLayers {
   std::string colour_by = "label";       // a UInt8 or Int32 cell array
   // Closed surfaces are filled by even-odd rule, all are drawn as lines.
   std::vector<const TriangleSoup*> surfaces;
+  std::vector<std::string> surface_names;  // for the legend; "surface 1", ... where there are fewer
 };
 struct SectionStyle {
-  int width = 1200;       // pixels of the longer edge of the drawing
-  bool cell_edges = true; // thin lines between cells
+  int width = 1200;        // pixels of the longer edge of the drawing
+  bool cell_edges = true;  // thin lines between cells
 };
 
 enum class PictureFormat { png, svg };
 
-// The bytes of the picture: up direction and handedness fixed by the plane, a scale bar, a legend of the
-// values, the plane's equation. Errors: InputError where the plane misses everything or the array is not
-// there (it lists those that are).
+// The bytes of the picture: up direction and handedness fixed by the plane, a scale bar, a legend
+// of the values, the plane's equation. A point on the plane counts as above it, so a plane along
+// the top of a body shows its top and one along its bottom misses. O(n) in the size of the layers.
+// The bytes of an SVG may differ from call to call (cairo numbers its definitions); what they show
+// does not. Errors: InputError where the plane misses everything or the array is not there or not
+// one of categories (it lists those that are); UsageError where the width is not within 64 to
+// 16384.
 std::string draw_section(const SectionLayers& layers, const Plane& plane, const SectionStyle& style,
                          PictureFormat format);
 

@@ -1,4 +1,5 @@
-// Labelled tetrahedra as a VTK unstructured grid for ParaView: appended, compressed, 64-bit headers.
+// Labelled tetrahedra as a VTK unstructured grid for ParaView: appended, compressed, 64-bit
+// headers.
 #pragma once
 
 #include <cstdint>
@@ -11,8 +12,8 @@
 
 namespace cellocut::viz {
 
-// One value per cell. Names follow the conventions: label_initial, label, label_<solver>, ambiguous,
-// anchored (UInt8), phi (Float32, input units), volume (Float64), component (Int32).
+// One value per cell. Names follow the conventions: label_initial, label, label_<solver>,
+// ambiguous, anchored (UInt8), phi (Float32, input units), volume (Float64), component (Int32).
 using ArrayValues = std::variant<std::vector<std::uint8_t>, std::vector<std::int32_t>,
                                  std::vector<float>, std::vector<double>>;
 struct CellArray {
@@ -40,7 +41,11 @@ struct LabelledCells {
 // Errors: InputError where an array's length is not the number of cells.
 std::string encode_vtu(const LabelledCells& cells);
 
-// Reads a .vtu that holds tetrahedra (cells of other types: InputError). Errors: InputError.
+// Reads a .vtu that holds tetrahedra, ours or another program's. Left out: arrays and field data
+// with more than one component per cell or value. Integers of other widths become Int32 where they
+// fit, otherwise Float64. One reader works at a time, as VTK's error output is global. Errors:
+// InputError with the path: not there, a directory, empty, truncated, damaged, cells of other
+// types, corners out of range, coordinates that are not finite.
 LabelledCells read_vtu(const std::string& path);
 
 }  // namespace cellocut::viz

@@ -1,6 +1,8 @@
-// An output file that appears whole or not at all: it is written to a temporary file in the target's
-// folder and renamed over the target by commit(). Without commit() (an exception, an early return) the
-// temporary file is removed and whatever stood at the target stays.
+// An output file that appears whole or not at all: it is written to a temporary file in the
+// target's folder and renamed over the target by commit(). Without commit() (an exception, an early
+// return) the temporary file is removed and whatever stood at the target stays. A symbolic link is
+// written through; the mode of an existing target is kept. What is no regular file (a device, a
+// pipe, /dev/stdout) is written directly.
 #pragma once
 
 #include <cstddef>
@@ -32,10 +34,14 @@ class AtomicFile {
 
  private:
   void flush();
-  [[noreturn]] void fail(const char* what, int error);
+  void write_all(const char* data, std::size_t size);
+  void create_temporary();
+  void discard() noexcept;
+  [[noreturn]] void fail(const std::string& what, int error);
 
-  std::string path_;
-  std::string temporary_;
+  std::string path_;       // as the caller gave it
+  std::string target_;     // what it stands for, behind symbolic links
+  std::string temporary_;  // empty where the output is written as it comes (a pipe, a device)
   int descriptor_ = -1;
   int slot_ = -1;
   std::vector<char> buffer_;

@@ -13,6 +13,11 @@ int orientation(const Point3& a, const Point3& b, const Point3& c, const Point3&
   return static_cast<int>(CGAL::orientation(to_cgal(a), to_cgal(b), to_cgal(c), to_cgal(d)));
 }
 
+int turn(double ax, double ay, double bx, double by, double px, double py) {
+  return static_cast<int>(CGAL::orientation(Kernel::Point_2(ax, ay), Kernel::Point_2(bx, by),
+                                            Kernel::Point_2(px, py)));
+}
+
 bool collinear(const Point3& a, const Point3& b, const Point3& c) {
   return CGAL::collinear(to_cgal(a), to_cgal(b), to_cgal(c));
 }

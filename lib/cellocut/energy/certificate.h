@@ -38,6 +38,7 @@ struct CertificateClaim {
   std::int64_t value;              // the claimed minimum, of the whole complex, in integer units
   const CellLabels& smallest_interior;
   const CellLabels& largest_interior;
+  bool unary = true;               // false: no cell is anchored interior, L* only sets weights
 };
 
 // Checks, in this order, each reported by name:

@@ -9,7 +9,8 @@
 
 namespace cellocut {
 
-enum class MeshFormat { obj, off, ply, ply_ascii, stl, stl_ascii };  // ply and stl: binary when written
+// ply and stl: binary when written.
+enum class MeshFormat { obj, off, ply, ply_ascii, stl, stl_ascii };
 
 // From the file name's ending (.obj .off .ply .stl, any case); nothing where it is none of them.
 std::optional<MeshFormat> format_of_path(std::string_view path);
@@ -17,24 +18,25 @@ std::optional<MeshFormat> format_of_path(std::string_view path);
 // Errors: UsageError that lists the names.
 MeshFormat format_of_name(std::string_view name);
 
-// Reads a mesh; `path` "-" is standard input, which needs `format`. For reading, ply and ply_ascii are
-// the same, and so are stl and stl_ascii: the file says which it is. Polygons are triangulated (a fan
-// where convex, a constrained triangulation of the projected polygon otherwise). STL corners with equal
-// coordinates become one point.
-// Errors: UsageError where the format cannot be told; InputError with the path and what is wrong: not
-// there, a directory, empty, truncated, malformed (with the line where there are lines), a coordinate
-// that is not finite, an index out of range, no faces.
+// Reads a mesh; `path` "-" is standard input, which needs `format`. For reading, ply and ply_ascii
+// are the same, and so are stl and stl_ascii: the file says which it is. Polygons are triangulated
+// (a fan where convex, a constrained triangulation of the projected polygon otherwise). STL corners
+// with equal coordinates become one point.
+//
+// Errors: UsageError where the format cannot be told; InputError with the path and what is wrong:
+// not there, a directory, empty, truncated, malformed (with the line where there are lines), a
+// coordinate that is not finite, an index out of range, no faces.
 TriangleSoup read_mesh(const std::string& path, std::optional<MeshFormat> format = {});
 
-// The bytes of a mesh file. OBJ, OFF, ASCII STL and ASCII PLY hold shortest decimals that read back as
-// the same doubles; binary PLY holds doubles; binary STL holds floats (rounded to nearest).
+// The bytes of a mesh file. OBJ, OFF, ASCII STL and ASCII PLY hold shortest decimals that read back
+// as the same doubles; binary PLY holds doubles; binary STL holds floats (rounded to nearest).
 std::string encode_mesh(const TriangleSoup& mesh, MeshFormat format);
 
 // Writes through AtomicFile. `path` "-" is standard output. Errors: OutputError.
 void write_mesh(const TriangleSoup& mesh, const std::string& path, MeshFormat format);
 
-// The mesh that a reader of such a file will see: for binary STL coordinates rounded to float; for both
-// kinds of STL, points of equal coordinates merged; otherwise the mesh itself.
+// The mesh that a reader of such a file will see: for binary STL coordinates rounded to float; for
+// both kinds of STL, points of equal coordinates merged; otherwise the mesh itself.
 TriangleSoup as_read_back(const TriangleSoup& mesh, MeshFormat format);
 
 }  // namespace cellocut

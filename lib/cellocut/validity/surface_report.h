@@ -12,8 +12,8 @@
 namespace cellocut {
 
 // Counts of incidence. "Non-manifold vertex" is judged by link: the faces around it do not form one
-// cycle (or, at a boundary, one path); "misoriented" edges have two faces that run along them in the
-// same direction.
+// cycle (or, at a boundary, one path), so both ends of a non-manifold edge count; "misoriented"
+// edges have two faces that run along them in the same direction.
 struct IncidenceCounts {
   std::int64_t boundary_edges = 0;        // one face
   std::int64_t nonmanifold_edges = 0;     // more than two faces
@@ -31,29 +31,36 @@ struct SurfaceReport {
   std::int64_t points = 0;  // used by faces
   std::int64_t triangles = 0;
   IncidenceCounts by_index;
-  IncidenceCounts by_position;           // after points with equal coordinates are merged
-  std::int64_t degenerate_faces = 0;     // three points on one line, by exact predicate
+  IncidenceCounts by_position;        // after points with equal coordinates are merged
+  std::int64_t degenerate_faces = 0;  // three points on one line, by exact predicate
   std::int64_t nonfinite_points = 0;
-  // Pairs of faces that share more than their common corners and edges (corners with equal coordinates
-  // count as common). Lists at most `max_pairs` of them.
+  // Pairs of faces that share more than their common corners and edges (corners with equal
+  // coordinates count as common). Degenerate faces and faces with points that are not finite are in
+  // no pair: they are counted above, as in CGAL, whose list names a degenerate face by itself.
+  // `pairs` has the smaller index first and holds the first `max_pairs` in lexicographic order.
+  bool intersections_tested = false;
   std::int64_t intersecting_pairs = 0;
   std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;
-  // Edges and vertices in which parts of the surface meet that are separate by index: where the solid
-  // touches itself. (Non-manifold by position, manifold by index.)
+  // Edges and vertices in which parts of the surface meet that are separate by index: where the
+  // solid touches itself. (Non-manifold by position, manifold by index. The ends of a touching edge
+  // are touching vertices as well, for the link of each is no cycle.)
   std::int64_t touching_edges = 0;
   std::int64_t touching_vertices = 0;
-  std::vector<SurfaceComponent> components;  // connected by shared edges, largest |volume| first
-  double volume = 0;                         // signed, of all components
+  // Connected by shared edges (by index), largest |volume| first. Faces with a repeated corner have
+  // no edges and are in none, nor in `euler`.
+  std::vector<SurfaceComponent> components;
+  double volume = 0;  // signed, of all components
   double area = 0;
   std::int64_t euler = 0;  // vertices - edges + faces, by index
 
-  // Closed, oriented, manifold by index, finite, nothing degenerate, nothing intersecting, not empty.
+  // Closed, oriented, manifold by index, finite, nothing degenerate, nothing intersecting, not
+  // empty. False where intersections were not tested.
   [[nodiscard]] bool valid() const;
 };
 
 struct SurfaceCheckOptions {
-  std::size_t max_pairs = 1000;     // how many intersecting pairs to list; all are counted
-  bool intersections = true;        // false skips the intersection test
+  std::size_t max_pairs = 1000;  // how many intersecting pairs to list; all are counted
+  bool intersections = true;     // false skips the intersection test
   Observer* observer = nullptr;
 };
 

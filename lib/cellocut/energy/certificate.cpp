@@ -1,0 +1,450 @@
+// The checker of a minimum-cut certificate.
+//
+// Notation. The nodes are the cells and one more node, the outside. S is the set of interior
+// anchors, T that of the exterior anchors with the outside in it. A facet f between cells c < d (or
+// c and the outside) has one capacity u_f in both directions and carries the net flow x_f from c to
+// d.
+//
+// Why the checks are a proof. Where |x_f| <= u_f everywhere and no free cell gains or loses, the
+// net flow out of S equals the net flow across the interface of any labelling that keeps S interior
+// and T exterior, and so is at most what that labelling costs (weak duality). Hence a labelling
+// that costs as much is a minimum. The residual arc c -> d is open iff x_f < u_f, d -> c iff x_f >
+// -u_f. What S reaches over open arcs is interior in every minimum, what reaches T is exterior in
+// every minimum, and both sets are the same for every maximum flow (Ford and Fulkerson 1962; Picard
+// and Queyranne 1980). If S reaches T, the flow was not maximal.
+//
+// Everything is derived here from the complex, L*, the mode, lambda and the flow. Nothing is taken
+// from the functions of energy.h, the cut problem, its contraction or the solvers: what they have
+// in common would not be checked. Flows between two anchors of one kind change nothing but must
+// obey capacities.
+#include "cellocut/energy/certificate.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "cellocut/base/point.h"
+
+namespace cellocut {
+
+namespace {
+
+// Capacities reach 2^70 (area_bits 50, lambda 2^20), sums of them 2^72; 64 bits would wrap.
+__extension__ using Wide = __int128;
+
+std::string decimal(Wide value) {
+  __extension__ using Magnitude = unsigned __int128;
+  const bool negative = value < 0;
+  Magnitude rest = negative ? -static_cast<Magnitude>(value) : static_cast<Magnitude>(value);
+  std::string digits;
+  do {
+    digits.push_back(static_cast<char>('0' + static_cast<int>(rest % 10)));
+    rest /= 10;
+  } while (rest != 0);
+  if (negative) digits.push_back('-');
+  std::reverse(digits.begin(), digits.end());
+  return digits;
+}
+
+// What one check found.
+struct Finding {
+  bool passed = false;
+  std::string detail;
+};
+
+Finding failed(std::string detail) { return {false, std::move(detail)}; }
+
+// A facet as the checker sees it: the side `corner` of `cell`.
+struct Side {
+  std::uint32_t cell = 0;
+  std::uint8_t corner = 0;
+};
+
+class Checker {
+ public:
+  explicit Checker(const CertificateClaim& claim) : claim_(claim), complex_(claim.complex) {}
+
+  CertificateReport run();
+
+ private:
+  Finding check_sizes();
+  Finding check_capacities();
+  Finding check_conservation() const;
+  Finding check_anchors() const;
+  Finding check_energy(const CellLabels& labels) const;
+  Finding check_flow_value() const;
+  Finding check_canonical(bool from_interior, const CellLabels& labels) const;
+
+  std::string parameter_defect() const;
+  std::string complex_defect() const;
+  std::string match_facets();
+  std::string quantise();
+  std::string cell_name(std::int64_t cell) const;
+
+  std::size_t cell_count() const { return complex_.cells.size(); }
+  std::int32_t neighbour(std::size_t cell, int k) const { return complex_.neighbours[cell][k]; }
+  // L* of a cell or of the outside.
+  std::uint8_t initial(std::int32_t cell) const {
+    return cell == kOutside ? kExterior : claim_.initial[static_cast<std::size_t>(cell)];
+  }
+  bool interior_anchor(std::size_t cell) const {
+    return claim_.unary && claim_.initial[cell] == kInterior;
+  }
+  bool exterior_anchor(std::size_t cell) const;
+  std::array<std::uint32_t, 3> corners_of(std::size_t cell, int k) const;
+  std::uint32_t facet_of(std::size_t cell, int k) const { return facet_of_side_[4 * cell + k]; }
+  // The flow that leaves `cell` across its facet k.
+  Wide flow_out(std::size_t cell, int k) const;
+  Wide net_flow_out(std::size_t cell) const;
+
+  const CertificateClaim& claim_;
+  const TetComplex& complex_;
+  std::vector<Side> facets_;                  // ascending by (lower cell, corner)
+  std::vector<std::uint32_t> facet_of_side_;  // [4 * cell + corner], both sides of a facet
+  std::vector<Wide> capacities_;              // per facet
+};
+
+bool Checker::exterior_anchor(std::size_t cell) const {
+  if (claim_.mode != ExteriorMode::hull_cells || claim_.initial[cell] != kExterior) return false;
+  const auto& around = complex_.neighbours[cell];
+  return std::find(around.begin(), around.end(), kOutside) != around.end();
+}
+
+std::array<std::uint32_t, 3> Checker::corners_of(std::size_t cell, int k) const {
+  std::array<std::uint32_t, 3> corners{};
+  for (int i = 0, n = 0; i < 4; ++i) {
+    if (i != k) corners[n++] = complex_.cells[cell][i];
+  }
+  std::sort(corners.begin(), corners.end());
+  return corners;
+}
+
+Wide Checker::flow_out(std::size_t cell, int k) const {
+  const std::uint32_t f = facet_of(cell, k);
+  const Wide flow = claim_.facet_flow[f];
+  return facets_[f].cell == cell ? flow : -flow;
+}
+
+Wide Checker::net_flow_out(std::size_t cell) const {
+  Wide net = 0;
+  for (int k = 0; k < 4; ++k) net += flow_out(cell, k);
+  return net;
+}
+
+std::string Checker::cell_name(std::int64_t cell) const {
+  return cell == kOutside ? "the outside" : "cell " + std::to_string(cell);
+}
+
+std::string Checker::parameter_defect() const {
+  constexpr std::int64_t kLargestTerm = std::int64_t{1} << 20;
+  const Rational& lambda = claim_.lambda;
+  if (lambda.numerator < 1 || lambda.numerator > kLargestTerm || lambda.denominator < 1 ||
+      lambda.denominator > kLargestTerm) {
+    return "lambda " + std::to_string(lambda.numerator) + "/" + std::to_string(lambda.denominator) +
+           " is out of range";
+  }
+  if (claim_.area_bits < 8 || claim_.area_bits > 50) {
+    return "area_bits " + std::to_string(claim_.area_bits) + " is out of range";
+  }
+  if (!(claim_.unit > 0) || !std::isfinite(claim_.unit)) return "the unit is not a length";
+  if (claim_.mode != ExteriorMode::unbounded && claim_.mode != ExteriorMode::hull_cells) {
+    return "the exterior mode is unknown";
+  }
+  const std::pair<const char*, const CellLabels*> labellings[] = {
+      {"initial", &claim_.initial},
+      {"smallest", &claim_.smallest_interior},
+      {"largest", &claim_.largest_interior}};
+  for (const auto& [name, labels] : labellings) {
+    if (labels->size() != cell_count()) {
+      return std::to_string(labels->size()) + " " + name + " labels for " +
+             std::to_string(cell_count()) + " cells";
+    }
+    for (std::size_t c = 0; c < cell_count(); ++c) {
+      if ((*labels)[c] != kInterior && (*labels)[c] != kExterior) {
+        return std::string("the ") + name + " label of cell " + std::to_string(c) + " is " +
+               std::to_string((*labels)[c]);
+      }
+    }
+  }
+  return {};
+}
+
+std::string Checker::complex_defect() const {
+  if (complex_.neighbours.size() != cell_count()) {
+    return std::to_string(complex_.neighbours.size()) + " neighbour entries for " +
+           std::to_string(cell_count()) + " cells";
+  }
+  // Cells are signed 32-bit in `neighbours`, sides of cells unsigned 32-bit here.
+  if (cell_count() > std::numeric_limits<std::uint32_t>::max() / 4) return "too many cells";
+  for (std::size_t c = 0; c < cell_count(); ++c) {
+    for (int k = 0; k < 4; ++k) {
+      if (complex_.cells[c][k] >= complex_.points.size()) {
+        return "cell " + std::to_string(c) + " has a corner that is not there";
+      }
+      const std::int64_t other = neighbour(c, k);
+      if (other < kOutside || other >= static_cast<std::int64_t>(cell_count()) ||
+          other == static_cast<std::int64_t>(c)) {
+        return "cell " + std::to_string(c) + " has a neighbour that is not there";
+      }
+    }
+  }
+  return {};
+}
+
+// Names every facet once, in the order of the claim, and finds it from both of its sides. Both
+// cells must agree on who is beyond a facet and on its corners: a one-sided neighbour would let
+// flow vanish.
+std::string Checker::match_facets() {
+  constexpr std::uint32_t kUnmatched = std::numeric_limits<std::uint32_t>::max();
+  facet_of_side_.assign(4 * cell_count(), kUnmatched);
+  for (std::size_t c = 0; c < cell_count(); ++c) {
+    for (int k = 0; k < 4; ++k) {
+      const std::int32_t other = neighbour(c, k);
+      if (other != kOutside && static_cast<std::size_t>(other) < c) {
+        // The lower cell came first and has named this facet, if it knows of it.
+        if (facet_of(c, k) == kUnmatched) {
+          return "cells " + std::to_string(other) + " and " + std::to_string(c) + " do not match";
+        }
+        continue;
+      }
+      const auto f = static_cast<std::uint32_t>(facets_.size());
+      facets_.push_back({static_cast<std::uint32_t>(c), static_cast<std::uint8_t>(k)});
+      facet_of_side_[4 * c + k] = f;
+      if (other == kOutside) continue;
+      const auto beyond = static_cast<std::size_t>(other);
+      int matches = 0;
+      for (int j = 0; j < 4; ++j) {
+        if (facet_of(beyond, j) == kUnmatched &&
+            neighbour(beyond, j) == static_cast<std::int32_t>(c) &&
+            corners_of(beyond, j) == corners_of(c, k)) {
+          facet_of_side_[4 * beyond + j] = f;
+          ++matches;
+        }
+      }
+      if (matches != 1) {
+        return "cells " + std::to_string(c) + " and " + std::to_string(other) + " do not match";
+      }
+    }
+  }
+  return {};
+}
+
+Finding Checker::check_sizes() {
+  std::string defect = parameter_defect();
+  if (defect.empty()) defect = complex_defect();
+  if (defect.empty()) defect = match_facets();
+  if (!defect.empty()) return failed(std::move(defect));
+  if (claim_.facet_flow.size() != facets_.size()) {
+    return failed(std::to_string(claim_.facet_flow.size()) + " flows for " +
+                  std::to_string(facets_.size()) + " facets");
+  }
+  return {true,
+          std::to_string(cell_count()) + " cells, " + std::to_string(facets_.size()) + " facets"};
+}
+
+// Areas, quantised as energy.h documents, and from them the capacities. The largest power of two is
+// sought from above on integer sums alone: at the first exponent the largest facet exceeds the
+// limit by itself, and where it no longer yields one quantum the sum is the number of facets.
+std::string Checker::quantise() {
+  capacities_.assign(facets_.size(), 0);
+  if (facets_.empty()) return {};
+  std::vector<double> areas(facets_.size());
+  double largest = 0;
+  for (std::size_t f = 0; f < facets_.size(); ++f) {
+    const auto [i, j, k] = corners_of(facets_[f].cell, facets_[f].corner);
+    const Point3& a = complex_.points[i];
+    const Point3 normal = cross(complex_.points[j] - a, complex_.points[k] - a);
+    areas[f] = 0.5 * std::sqrt(dot(normal, normal)) / (claim_.unit * claim_.unit);
+    if (!std::isfinite(areas[f])) return "facet " + std::to_string(f) + " has no finite area";
+    largest = std::max(largest, areas[f]);
+  }
+  if (largest == 0) return "no facet has an area";
+
+  const std::int64_t limit = std::int64_t{1} << claim_.area_bits;
+  int magnitude = 0;  // largest in [2^(magnitude - 1), 2^magnitude)
+  std::frexp(largest, &magnitude);
+  for (int exponent = claim_.area_bits - magnitude + 2;; --exponent) {
+    std::int64_t sum = 0;
+    for (std::size_t f = 0; f < areas.size() && sum <= limit; ++f) {
+      // At most 2^(area_bits + 2), so neither the rounding nor the sum can overflow.
+      const std::int64_t quanta = std::llround(std::ldexp(areas[f], exponent));
+      capacities_[f] = std::max(std::int64_t{1}, quanta);
+      sum += std::max(std::int64_t{1}, quanta);
+    }
+    if (sum <= limit) break;
+    if (exponent + magnitude < -1) return "even one quantum a facet exceeds 2^area_bits";
+  }
+  for (std::size_t f = 0; f < facets_.size(); ++f) {
+    const auto [cell, corner] = facets_[f];
+    const bool differ = claim_.initial[cell] != initial(neighbour(cell, corner));
+    capacities_[f] *= differ ? claim_.lambda.denominator : claim_.lambda.numerator;
+  }
+  return {};
+}
+
+Finding Checker::check_capacities() {
+  std::string defect = quantise();
+  if (!defect.empty()) {
+    capacities_.clear();
+    return failed(std::move(defect));
+  }
+  std::size_t saturated = 0;
+  for (std::size_t f = 0; f < facets_.size(); ++f) {
+    const Wide flow = claim_.facet_flow[f];
+    const Wide magnitude = flow < 0 ? -flow : flow;
+    if (magnitude > capacities_[f]) {
+      const auto [cell, corner] = facets_[f];
+      return failed("facet " + std::to_string(f) + " between cell " + std::to_string(cell) +
+                    " and " + cell_name(neighbour(cell, corner)) + " carries " + decimal(flow) +
+                    ", its capacity is " + decimal(capacities_[f]));
+    }
+    if (magnitude == capacities_[f]) ++saturated;
+  }
+  return {true, std::to_string(saturated) + " of " + std::to_string(facets_.size()) +
+                    " facets saturated"};
+}
+
+Finding Checker::check_conservation() const {
+  std::size_t free_cells = 0;
+  for (std::size_t c = 0; c < cell_count(); ++c) {
+    if (interior_anchor(c) || exterior_anchor(c)) continue;
+    ++free_cells;
+    const Wide net = net_flow_out(c);
+    if (net != 0) {
+      return failed("free cell " + std::to_string(c) + " has a net outflow of " + decimal(net));
+    }
+  }
+  return {true, std::to_string(free_cells) + " free cells"};
+}
+
+Finding Checker::check_anchors() const {
+  std::size_t interior = 0;
+  std::size_t exterior = 0;
+  for (std::size_t c = 0; c < cell_count(); ++c) {
+    const bool inside = interior_anchor(c);
+    if (!inside && !exterior_anchor(c)) continue;
+    ++(inside ? interior : exterior);
+    const std::uint8_t kept = inside ? kInterior : kExterior;
+    if (claim_.smallest_interior[c] == kept && claim_.largest_interior[c] == kept) continue;
+    return failed(std::string(inside ? "interior" : "exterior") + " anchor " + std::to_string(c) +
+                  " is given up");
+  }
+  return {true, std::to_string(interior) + " interior, " + std::to_string(exterior) +
+                    " exterior and the outside"};
+}
+
+Finding Checker::check_energy(const CellLabels& labels) const {
+  Wide energy = 0;
+  for (std::size_t f = 0; f < facets_.size(); ++f) {
+    const auto [cell, corner] = facets_[f];
+    const std::int32_t other = neighbour(cell, corner);
+    const std::uint8_t beyond =
+        other == kOutside ? kExterior : labels[static_cast<std::size_t>(other)];
+    if (labels[cell] != beyond) energy += capacities_[f];
+  }
+  return {energy == claim_.value,
+          "energy " + decimal(energy) + ", claimed " + decimal(claim_.value)};
+}
+
+Finding Checker::check_flow_value() const {
+  Wide flow = 0;
+  for (std::size_t c = 0; c < cell_count(); ++c) {
+    if (interior_anchor(c)) flow += net_flow_out(c);
+  }
+  return {flow == claim_.value, "flow " + decimal(flow) + ", claimed " + decimal(claim_.value)};
+}
+
+// Marks what the interior anchors reach over open residual arcs (from_interior), or what reaches
+// the exterior anchors and the outside, and compares it with the labelling that it determines.
+Finding Checker::check_canonical(bool from_interior, const CellLabels& labels) const {
+  std::vector<std::uint8_t> marked(cell_count(), 0);
+  std::vector<std::uint32_t> stack;
+  const auto mark = [&](std::size_t cell) {
+    if (marked[cell] != 0) return;
+    marked[cell] = 1;
+    stack.push_back(static_cast<std::uint32_t>(cell));
+  };
+  for (std::size_t c = 0; c < cell_count(); ++c) {
+    if (from_interior ? interior_anchor(c) : exterior_anchor(c)) mark(c);
+    if (from_interior) continue;
+    // The outside is a seed as well: cells with an open arc to it.
+    for (int k = 0; k < 4; ++k) {
+      if (neighbour(c, k) == kOutside && flow_out(c, k) < capacities_[facet_of(c, k)]) mark(c);
+    }
+  }
+  while (!stack.empty()) {
+    const std::uint32_t cell = stack.back();
+    stack.pop_back();
+    if (from_interior ? exterior_anchor(cell) : interior_anchor(cell)) {
+      return failed("the flow is not maximal: an augmenting path passes through cell " +
+                    std::to_string(cell));
+    }
+    for (int k = 0; k < 4; ++k) {
+      const std::int32_t other = neighbour(cell, k);
+      const Wide capacity = capacities_[facet_of(cell, k)];
+      const Wide flow = flow_out(cell, k);
+      // The arc cell -> other, or other -> cell where the search runs against the arcs.
+      if ((from_interior ? flow : -flow) >= capacity) continue;
+      if (other != kOutside) {
+        mark(static_cast<std::size_t>(other));
+      } else if (from_interior) {
+        return failed("the flow is not maximal: an augmenting path leaves the hull at cell " +
+                      std::to_string(cell));
+      }
+    }
+  }
+  std::size_t interior = 0;
+  for (std::size_t c = 0; c < cell_count(); ++c) {
+    const std::uint8_t label = (marked[c] != 0) == from_interior ? kInterior : kExterior;
+    if (label != labels[c]) {
+      return failed("cell " + std::to_string(c) + " is " +
+                    (label == kInterior ? "interior" : "exterior") + " by residual reachability");
+    }
+    interior += label == kInterior ? 1 : 0;
+  }
+  return {true, std::to_string(interior) + " interior cells"};
+}
+
+CertificateReport Checker::run() {
+  CertificateReport report;
+  const auto add = [&](const char* name, Finding finding) {
+    report.checks.push_back({name, finding.passed, std::move(finding.detail)});
+    return finding.passed;
+  };
+  const auto unless = [](const char* obstacle, bool sound, auto&& check) {
+    return sound ? check() : failed(std::string("not checked: ") + obstacle);
+  };
+  const char* const no_sizes = "the sizes are wrong";
+  const char* const no_areas = "the capacities are unknown";
+  const char* const no_flow = "the flow is not feasible";
+
+  const bool sizes = add("sizes", check_sizes());
+  const bool capacities =
+      add("capacities", unless(no_sizes, sizes, [&] { return check_capacities(); }));
+  const bool conservation =
+      add("conservation", unless(no_sizes, sizes, [&] { return check_conservation(); }));
+  add("anchors", unless(no_sizes, sizes, [&] { return check_anchors(); }));
+  const bool priced = sizes && capacities_.size() == facets_.size();
+  add("smallest_energy",
+      unless(no_areas, priced, [&] { return check_energy(claim_.smallest_interior); }));
+  add("largest_energy",
+      unless(no_areas, priced, [&] { return check_energy(claim_.largest_interior); }));
+  add("flow_value", unless(no_sizes, sizes, [&] { return check_flow_value(); }));
+  const bool feasible = capacities && conservation;
+  add("smallest_canonical",
+      unless(no_flow, feasible, [&] { return check_canonical(true, claim_.smallest_interior); }));
+  add("largest_canonical",
+      unless(no_flow, feasible, [&] { return check_canonical(false, claim_.largest_interior); }));
+
+  report.valid = std::all_of(report.checks.begin(), report.checks.end(),
+                             [](const CertificateCheck& check) { return check.passed; });
+  return report;
+}
+
+}  // namespace
+
+CertificateReport check_certificate(const CertificateClaim& claim) { return Checker(claim).run(); }
+
+}  // namespace cellocut

@@ -1,0 +1,193 @@
+#include "cellocut/field/band.h"
+
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <limits>
+
+namespace cellocut {
+
+namespace {
+
+// Covers the rounding of distances in index coordinates (below 1e-9 for grids of up to 1e5 steps).
+constexpr double kSlack = 1e-7;
+
+using Candidates = std::vector<std::uint32_t>;
+
+class Descent {
+ public:
+  Descent(const std::vector<DistanceTriangle>& triangles, double offset, Observer& observer)
+      : triangles_(triangles), offset_(offset), observer_(observer) {}
+
+  void run(int extent) {
+    int edge = kLeafEdge;
+    while (edge < extent) edge *= 2;
+    Candidates all(triangles_.size());
+    for (std::uint32_t i = 0; i < all.size(); ++i) all[i] = i;
+    visit(openvdb::Coord(0, 0, 0), edge, all);
+  }
+
+  Band take() {
+    Band band;
+    for (Band& part : parts_) {
+      std::move(part.leaves.begin(), part.leaves.end(), std::back_inserter(band.leaves));
+      band.inside.insert(band.inside.end(), part.inside.begin(), part.inside.end());
+      band.outside.insert(band.outside.end(), part.outside.begin(), part.outside.end());
+    }
+    return band;
+  }
+
+ private:
+  enum class Place { band, inside, outside };
+
+  // Whether the band reaches the grid points low .. low + edge - 1, and if so which of the candidates can
+  // be closest to one of them.
+  Place narrow(const openvdb::Coord& low, int edge, const Candidates& candidates,
+               Candidates& narrowed) const {
+    const double half = 0.5 * (edge - 1);
+    const Point3 centre{low.x() + half, low.y() + half, low.z() + half};
+    const double radius = std::sqrt(3.0) * half;
+    // Lower bounds first (the triangles' balls), distances only where they can matter.
+    double closest = std::numeric_limits<double>::infinity();
+    narrowed.clear();
+    std::vector<double>& distances = scratch_.local();
+    distances.clear();
+    for (const std::uint32_t t : candidates) {
+      const DistanceTriangle& triangle = triangles_[t];
+      const double ball = norm(centre - triangle.centre()) - triangle.radius();
+      if (ball > closest + 2 * radius + kSlack) continue;
+      const double distance = std::sqrt(triangle.squared_distance(centre));
+      if (distance > closest + 2 * radius + kSlack) continue;
+      closest = std::fmin(closest, distance);
+      narrowed.push_back(t);
+      distances.push_back(distance);
+    }
+    if (closest - offset_ > radius + kBand + kSlack) return Place::outside;
+    if (closest - offset_ < -(radius + kBand + kSlack)) return Place::inside;
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < narrowed.size(); ++i) {
+      if (distances[i] <= closest + 2 * radius + kSlack) narrowed[kept++] = narrowed[i];
+    }
+    narrowed.resize(kept);
+    return Place::band;
+  }
+
+  void visit(const openvdb::Coord& low, int edge, const Candidates& candidates) {
+    Candidates narrowed;
+    switch (narrow(low, edge, candidates, narrowed)) {
+      case Place::outside:
+        parts_.local().outside.push_back({low, edge});
+        return;
+      case Place::inside:
+        parts_.local().inside.push_back({low, edge});
+        return;
+      case Place::band:
+        break;
+    }
+    if (edge == kLeafEdge) {
+      auto leaf = std::make_unique<FieldLeaf>(low, kBand, false);
+      fill(*leaf, low, kLeafEdge / 2, narrowed);
+      parts_.local().leaves.push_back(std::move(leaf));
+      return;
+    }
+    observer_.check();
+    const int half = edge / 2;
+    const auto child = [&](int k) {
+      visit(low.offsetBy((k & 1) * half, ((k >> 1) & 1) * half, (k >> 2) * half), half, narrowed);
+    };
+    if (edge > 2 * kLeafEdge) {
+      tbb::parallel_for(0, 8, child);
+    } else {
+      for (int k = 0; k < 8; ++k) child(k);
+    }
+  }
+
+  // Fills the eight sub-blocks of `edge` grid points inside one leaf.
+  void fill(FieldLeaf& leaf, const openvdb::Coord& low, int edge,
+            const Candidates& candidates) const {
+    Candidates narrowed;
+    for (int k = 0; k < 8; ++k) {
+      const openvdb::Coord sub =
+          low.offsetBy((k & 1) * edge, ((k >> 1) & 1) * edge, (k >> 2) * edge);
+      switch (narrow(sub, edge, candidates, narrowed)) {
+        case Place::outside:
+          break;  // the leaf was made with +kBand
+        case Place::inside:
+          fill_inside(leaf, sub, edge);
+          break;
+        case Place::band:
+          if (edge > 2) {
+            fill(leaf, sub, edge / 2, narrowed);
+          } else {
+            evaluate(leaf, sub, edge, narrowed);
+          }
+          break;
+      }
+    }
+  }
+
+  static void fill_inside(FieldLeaf& leaf, const openvdb::Coord& low, int edge) {
+    for (int x = 0; x < edge; ++x) {
+      for (int y = 0; y < edge; ++y) {
+        for (int z = 0; z < edge; ++z) leaf.setValueOff(low.offsetBy(x, y, z), -kBand);
+      }
+    }
+  }
+
+  void evaluate(FieldLeaf& leaf, const openvdb::Coord& low, int edge,
+                const Candidates& candidates) const {
+    for (int x = 0; x < edge; ++x) {
+      for (int y = 0; y < edge; ++y) {
+        for (int z = 0; z < edge; ++z) {
+          const openvdb::Coord at = low.offsetBy(x, y, z);
+          const Point3 p{static_cast<double>(at.x()), static_cast<double>(at.y()),
+                         static_cast<double>(at.z())};
+          double squared = std::numeric_limits<double>::infinity();
+          for (const std::uint32_t t : candidates) {
+            squared = std::fmin(squared, triangles_[t].squared_distance(p));
+          }
+          const float phi = static_cast<float>(std::sqrt(squared) - offset_);
+          if (std::fabs(phi) < kBand) {
+            leaf.setValueOn(at, phi);
+          } else if (phi < 0) {
+            leaf.setValueOff(at, -kBand);
+          }
+        }
+      }
+    }
+  }
+
+  const std::vector<DistanceTriangle>& triangles_;
+  double offset_;
+  Observer& observer_;
+  tbb::enumerable_thread_specific<Band> parts_;  // one per thread
+  mutable tbb::enumerable_thread_specific<std::vector<double>> scratch_;
+};
+
+}  // namespace
+
+Band find_band(const std::vector<DistanceTriangle>& triangles, int extent, double offset,
+               Observer& observer) {
+  Descent descent(triangles, offset, observer);
+  descent.run(extent);
+  return descent.take();
+}
+
+void add_inside_tile(FieldTree& tree, const Tile& tile) {
+  // A tile of the tree has the size of a leaf or of the node above it.
+  constexpr int kUpper = FieldTree::RootNodeType::ChildNodeType::ChildNodeType::DIM;  // 128
+  const int step = tile.edge >= kUpper ? kUpper : kLeafEdge;
+  const openvdb::Index level = tile.edge >= kUpper ? 2 : 1;
+  for (int x = 0; x < tile.edge; x += step) {
+    for (int y = 0; y < tile.edge; y += step) {
+      for (int z = 0; z < tile.edge; z += step) {
+        tree.addTile(level, tile.low.offsetBy(x, y, z), -kBand, false);
+      }
+    }
+  }
+}
+
+}  // namespace cellocut

@@ -1,0 +1,49 @@
+// The tree behind a SparseField (OpenVDB). Included by the few source files that build or walk fields,
+// never by a public header.
+#pragma once
+
+#include <openvdb/openvdb.h>
+
+#include <algorithm>
+
+#include "cellocut/base/point.h"
+#include "cellocut/field/sparse_field.h"
+
+namespace cellocut {
+
+using FieldTree = openvdb::FloatTree;
+using FieldLeaf = FieldTree::LeafNodeType;
+inline constexpr int kLeafEdge = FieldLeaf::DIM;  // 8
+
+// Values in grid steps. Active values are those of the band; every other value is +kBand or -kBand.
+struct SparseField::Grid {
+  FieldTree tree{kBand};
+};
+
+// Trilinear interpolation with an accessor of its own; one per thread.
+class FieldSampler {
+ public:
+  explicit FieldSampler(const SparseField& field) : accessor_(field.grid().tree) {}
+
+  double operator()(const Point3& p) {
+    const Point3 floor{std::floor(p[0]), std::floor(p[1]), std::floor(p[2])};
+    const double x = p[0] - floor[0];
+    const double y = p[1] - floor[1];
+    const double z = p[2] - floor[2];
+    const openvdb::Coord o(static_cast<int>(floor[0]), static_cast<int>(floor[1]),
+                           static_cast<int>(floor[2]));
+    const auto edge = [&](int dy, int dz) {
+      const double a = accessor_.getValue(o.offsetBy(0, dy, dz));
+      const double b = accessor_.getValue(o.offsetBy(1, dy, dz));
+      return a + x * (b - a);
+    };
+    const double y0 = edge(0, 0) + y * (edge(1, 0) - edge(0, 0));
+    const double y1 = edge(0, 1) + y * (edge(1, 1) - edge(0, 1));
+    return y0 + z * (y1 - y0);
+  }
+
+ private:
+  openvdb::tree::ValueAccessor<const FieldTree> accessor_;
+};
+
+}  // namespace cellocut

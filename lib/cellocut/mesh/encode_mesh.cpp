@@ -1,0 +1,171 @@
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <string>
+
+#include "cellocut/base/errors.h"
+#include "cellocut/mesh/byte_order.h"
+#include "cellocut/mesh/mesh_file.h"
+#include "cellocut/mesh/point_merger.h"
+
+namespace cellocut {
+namespace {
+
+// The shortest decimals that read back as the same number.
+template <class Number>
+void append_number(std::string& bytes, Number value) {
+  std::array<char, 32> digits;  // the longest double takes 24
+  const auto result = std::to_chars(digits.data(), digits.data() + digits.size(), value);
+  bytes.append(digits.data(), result.ptr);
+}
+
+void append_point(std::string& bytes, const char* prefix, const Point3& point) {
+  bytes += prefix;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (axis > 0) bytes += ' ';
+    append_number(bytes, point[axis]);
+  }
+  bytes += '\n';
+}
+
+void append_triangle(std::string& bytes, const char* prefix, const Triangle& triangle,
+                     std::uint64_t first_index) {
+  bytes += prefix;
+  for (int k = 0; k < 3; ++k) {
+    if (k > 0) bytes += ' ';
+    append_number(bytes, triangle[k] + first_index);
+  }
+  bytes += '\n';
+}
+
+std::string encode_obj(const TriangleSoup& mesh) {
+  std::string bytes;
+  for (const Point3& point : mesh.points) append_point(bytes, "v ", point);
+  for (const Triangle& triangle : mesh.triangles) append_triangle(bytes, "f ", triangle, 1);
+  return bytes;
+}
+
+std::string encode_off(const TriangleSoup& mesh) {
+  std::string bytes = "OFF\n" + std::to_string(mesh.points.size()) + ' ' +
+                      std::to_string(mesh.triangles.size()) + " 0\n";
+  for (const Point3& point : mesh.points) append_point(bytes, "", point);
+  for (const Triangle& triangle : mesh.triangles) append_triangle(bytes, "3 ", triangle, 0);
+  return bytes;
+}
+
+std::string ply_header(const TriangleSoup& mesh, const char* encoding) {
+  // `int` is what readers expect; `uint` only where it is needed.
+  const bool large = mesh.points.size() > std::size_t{std::numeric_limits<std::int32_t>::max()};
+  return std::string("ply\nformat ") + encoding + " 1.0\nelement vertex " +
+         std::to_string(mesh.points.size()) +
+         "\nproperty double x\nproperty double y\nproperty double z\nelement face " +
+         std::to_string(mesh.triangles.size()) + "\nproperty list uchar " +
+         (large ? "uint" : "int") + " vertex_indices\nend_header\n";
+}
+
+std::string encode_ply_ascii(const TriangleSoup& mesh) {
+  std::string bytes = ply_header(mesh, "ascii");
+  for (const Point3& point : mesh.points) append_point(bytes, "", point);
+  for (const Triangle& triangle : mesh.triangles) append_triangle(bytes, "3 ", triangle, 0);
+  return bytes;
+}
+
+std::string encode_ply(const TriangleSoup& mesh) {
+  std::string bytes = ply_header(mesh, "binary_little_endian");
+  bytes.reserve(bytes.size() + 24 * mesh.points.size() + 13 * mesh.triangles.size());
+  for (const Point3& point : mesh.points) {
+    for (const double coordinate : point) mesh_io::append_little_endian(bytes, coordinate);
+  }
+  for (const Triangle& triangle : mesh.triangles) {
+    bytes += '\3';
+    for (const std::uint32_t corner : triangle) mesh_io::append_little_endian(bytes, corner);
+  }
+  return bytes;
+}
+
+// Unit normal, zero for a triangle without area.
+std::array<float, 3> facet_normal(const TriangleSoup& mesh, const Triangle& triangle) {
+  const Point3& a = mesh.points[triangle[0]];
+  const Point3 normal = cross(mesh.points[triangle[1]] - a, mesh.points[triangle[2]] - a);
+  const double length = norm(normal);
+  if (!(length > 0) || !std::isfinite(length)) return {};
+  return {static_cast<float>(normal[0] / length), static_cast<float>(normal[1] / length),
+          static_cast<float>(normal[2] / length)};
+}
+
+std::string encode_stl(const TriangleSoup& mesh) {
+  if (mesh.triangles.size() > std::numeric_limits<std::uint32_t>::max()) {
+    throw LimitError("a binary STL file holds at most 4294967295 triangles");
+  }
+  std::string bytes(80, ' ');
+  bytes.reserve(84 + 50 * mesh.triangles.size());
+  mesh_io::append_little_endian(bytes, static_cast<std::uint32_t>(mesh.triangles.size()));
+  for (const Triangle& triangle : mesh.triangles) {
+    for (const float x : facet_normal(mesh, triangle)) mesh_io::append_little_endian(bytes, x);
+    for (const std::uint32_t corner : triangle) {
+      for (const double x : mesh.points[corner]) {
+        mesh_io::append_little_endian(bytes, static_cast<float>(x));
+      }
+    }
+    mesh_io::append_little_endian(bytes, std::uint16_t{0});
+  }
+  return bytes;
+}
+
+std::string encode_stl_ascii(const TriangleSoup& mesh) {
+  std::string bytes = "solid\n";
+  for (const Triangle& triangle : mesh.triangles) {
+    bytes += "facet normal";
+    for (const float x : facet_normal(mesh, triangle)) {
+      bytes += ' ';
+      append_number(bytes, x);
+    }
+    bytes += "\nouter loop\n";
+    for (const std::uint32_t corner : triangle) append_point(bytes, "vertex ", mesh.points[corner]);
+    bytes += "endloop\nendfacet\n";
+  }
+  return bytes + "endsolid\n";
+}
+
+}  // namespace
+
+std::string encode_mesh(const TriangleSoup& mesh, MeshFormat format) {
+  switch (format) {
+    case MeshFormat::obj:
+      return encode_obj(mesh);
+    case MeshFormat::off:
+      return encode_off(mesh);
+    case MeshFormat::ply:
+      return encode_ply(mesh);
+    case MeshFormat::ply_ascii:
+      return encode_ply_ascii(mesh);
+    case MeshFormat::stl:
+      return encode_stl(mesh);
+    case MeshFormat::stl_ascii:
+      return encode_stl_ascii(mesh);
+  }
+  throw UsageError("unknown mesh format");
+}
+
+TriangleSoup as_read_back(const TriangleSoup& mesh, MeshFormat format) {
+  if (format != MeshFormat::stl && format != MeshFormat::stl_ascii) return mesh;
+  TriangleSoup seen;
+  seen.triangles.reserve(mesh.triangles.size());
+  mesh_io::PointMerger merger;
+  for (const Triangle& triangle : mesh.triangles) {
+    Triangle merged{};
+    for (int k = 0; k < 3; ++k) {
+      Point3 point = mesh.points[triangle[k]];
+      if (format == MeshFormat::stl) {
+        for (double& x : point) x = static_cast<float>(x);
+      }
+      merged[k] = merger.index_of(point, seen.points);
+    }
+    seen.triangles.push_back(merged);
+  }
+  return seen;
+}
+
+}  // namespace cellocut

@@ -1,0 +1,33 @@
+// One reader for each format: the bytes of a file -> a triangle soup. Internal to read_mesh().
+//
+// Why not CGAL's polygon-soup readers (CGAL/IO/OBJ.h, OFF.h, PLY.h, STL.h): they say only that
+// reading failed, not where or why; OBJ refuses unknown keywords, splits no continued lines and
+// lets an index one past the end through; OFF and PLY allocate what the header claims before
+// anything is read; a truncated binary STL of fewer than 80 bytes counts as read; and they parse
+// through iostreams, many times slower than what follows. The cases are in
+// tests/unit/mesh_file_test.cpp.
+//
+// All readers: errors are InputError without a path (read_mesh adds it), nothing is allocated on
+// the word of a header alone, degenerate and duplicate faces stay. O(size of the file).
+#pragma once
+
+#include <string_view>
+
+#include "cellocut/mesh/triangle_soup.h"
+
+namespace cellocut::mesh_io {
+
+// Wavefront OBJ: `v` and `f`; everything else is skipped. Weights and colours after x y z are
+// ignored.
+TriangleSoup read_obj(std::string_view bytes);
+// Geomview OFF in text: OFF, COFF, NOFF, STOFF and their combinations; columns beyond x y z and
+// beyond the corners of a face are ignored. The counts may stand on the line of the keyword, even
+// without a blank (as in ModelNet). Binary OFF and the 4- and n-dimensional variants are refused.
+TriangleSoup read_off(std::string_view bytes);
+// Stanford PLY, text and binary of both byte orders, any further elements and properties.
+TriangleSoup read_ply(std::string_view bytes);
+// STL, text (any number of solids) and binary, told apart by the content. Points of equal
+// coordinates are merged.
+TriangleSoup read_stl(std::string_view bytes);
+
+}  // namespace cellocut::mesh_io

@@ -1,0 +1,60 @@
+// What the options of a remesh may be, and what they come to on a given input.
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "cellocut/base/errors.h"
+#include "cellocut/pipeline.h"
+
+namespace cellocut {
+
+namespace {
+
+std::string short_decimal(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.6g", value);
+  return text;
+}
+
+void require(bool holds, const char* what) {
+  if (!holds) throw UsageError(what);
+}
+
+}  // namespace
+
+void RemeshOptions::validate() const {
+  require(resolution >= 8 && resolution <= 16384, "--resolution must be between 8 and 16384");
+  require(!(epsilon && epsilon_absolute), "give --epsilon or --epsilon-abs, not both");
+  require(!epsilon || (*epsilon > 0 && *epsilon <= 1), "--epsilon must be above 0 and at most 1");
+  require(!epsilon_absolute || (*epsilon_absolute > 0 && std::isfinite(*epsilon_absolute)),
+          "--epsilon-abs must be above 0");
+  require(decimate >= 0 && decimate <= 0.99, "--decimate must be between 0 and 0.99");
+  require(area_bits >= 8 && area_bits <= 50, "--area-bits must be between 8 and 50");
+  require(min_component >= 0 && min_component <= 1, "--min-component must be between 0 and 1");
+}
+
+DerivedParameters derive_parameters(const TriangleSoup& input, const RemeshOptions& options) {
+  if (input.empty()) throw InputError("the mesh has no faces");
+  const double unit = bounding_box(input).longest_edge();
+  if (!(unit > 0) || !std::isfinite(unit)) {
+    throw InputError("the mesh has no extent: all its points are the same, or too far apart");
+  }
+  DerivedParameters derived;
+  const double step = 1.0 / options.resolution;
+  derived.epsilon = options.epsilon            ? *options.epsilon
+                    : options.epsilon_absolute ? *options.epsilon_absolute / unit
+                                               : std::max(1.0 / 512, step);
+  require(derived.epsilon <= 1, "--epsilon-abs must be at most the longest edge of the box");
+  if (!options.thickening) derived.epsilon = 0;
+  if (options.thickening && 2 * derived.epsilon < step) {
+    throw UsageError("epsilon " + short_decimal(derived.epsilon) +
+                     " is below half a grid step, so that sheets perforate; use --resolution " +
+                     std::to_string(static_cast<long>(std::ceil(0.5 / derived.epsilon))) +
+                     " or more, or --epsilon " + short_decimal(0.5 * step) + " or more");
+  }
+  derived.epsilon_steps = derived.epsilon * options.resolution;
+  derived.epsilon_below_step = options.thickening && derived.epsilon < step;
+  return derived;
+}
+
+}  // namespace cellocut

@@ -1,0 +1,157 @@
+#include "cellocut/pipeline.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "cellocut/base/stopwatch.h"
+#include "cellocut/field/distance_field.h"
+#include "cellocut/field/flood_sign.h"
+#include "cellocut/surface/components.h"
+#include "cellocut/surface/interface.h"
+#include "cellocut/surface/iso_surface.h"
+#include "cellocut/surface/signed_distance.h"
+
+namespace cellocut {
+
+namespace {
+
+// Names the stages to the observer and measures them.
+class StageClock {
+ public:
+  StageClock(std::vector<StageTime>& stages, Observer& observer)
+      : stages_(stages), observer_(observer) {}
+
+  template <class Work>
+  auto operator()(const char* name, const Work& work) {
+    observer_.check();
+    observer_.stage(name);
+    const Stopwatch stopwatch;
+    auto product = work();
+    stages_.push_back({name, stopwatch.seconds()});
+    return product;
+  }
+
+ private:
+  std::vector<StageTime>& stages_;
+  Observer& observer_;
+};
+
+SparseField compute_phi(const TriangleSoup& input, const RemeshOptions& options,
+                        const RemeshResult& result, Observer& observer) {
+  return options.thickening
+             ? compute_distance_field(input, result.frame, result.derived.epsilon_steps, observer)
+             : compute_flood_signed_distance(input, result.frame, observer);
+}
+
+std::vector<float> sample_centroids(const SparseField& phi, const TetComplex& complex,
+                                    const Frame& frame) {
+  std::vector<Point3> centroids(complex.cells.size());
+  for (std::uint32_t c = 0; c < centroids.size(); ++c) {
+    centroids[c] = frame.to_index(cell_centroid(complex, c));
+  }
+  return phi.sample(centroids);
+}
+
+// L*: interior iff phi(centroid) < 0.
+CellLabels label_by_sign(const std::vector<float>& phi) {
+  CellLabels labels(phi.size());
+  std::transform(phi.begin(), phi.end(), labels.begin(),
+                 [](float value) { return value < 0 ? kInterior : kExterior; });
+  return labels;
+}
+
+CertificateReport certify(const RemeshResult& result, const RemeshOptions& options) {
+  return check_certificate({.complex = result.complex,
+                            .initial = result.initial_label,
+                            .mode = options.exterior,
+                            .lambda = options.lambda_fill,
+                            .unit = result.frame.unit,
+                            .area_bits = options.area_bits,
+                            .facet_flow = result.facet_flow,
+                            .value = result.cut.value,
+                            .smallest_interior = result.smallest_interior,
+                            .largest_interior = result.largest_interior,
+                            .unary = options.unary});
+}
+
+TriangleSoup extract_surface(const RemeshResult& result, SurfaceMode mode, Observer& observer) {
+  if (mode == SurfaceMode::cells) return extract_interface_cells(result.complex, result.label);
+  const TriangleSoup interface =
+      interface_triangles(result.complex, list_interface(result.complex, result.label));
+  TriangleSoup surface =
+      extract_iso_surface(compute_signed_distance(interface, result.frame, observer));
+  to_input_units(surface, result.frame);
+  return surface;
+}
+
+}  // namespace
+
+bool RemeshResult::empty_solid() const {
+  return std::find(label.begin(), label.end(), kInterior) == label.end();
+}
+
+// The paper's Algorithm 1, line by line.
+RemeshResult remesh(const TriangleSoup& input, const RemeshOptions& options,
+                    const Tetrahedralizer& tetrahedralizer, CutSolver& solver,
+                    Observer& observer) {
+  options.validate();
+  RemeshResult result;
+  StageClock stage(result.stages, observer);
+
+  // Stage 1: discretization.
+  result.derived = derive_parameters(input, options);
+  result.frame = make_frame(bounding_box(input), options.resolution,
+                            result.derived.epsilon_steps + kBand + 1);
+  result.phi = stage("field", [&] { return compute_phi(input, options, result, observer); });
+  const TriangleSoup thick = stage("iso-surface", [&] { return extract_iso_surface(result.phi); });
+  result.proxy = stage("decimation", [&] {
+    return make_proxy(thick, result.phi, result.frame, options.decimate, observer);
+  });
+  if (result.proxy.mesh.empty()) return result;
+  result.complex = stage("tetrahedralization",
+                         [&] { return tetrahedralizer.tetrahedralize(result.proxy.mesh.points); });
+  result.initial_label = stage("initial labels", [&] {
+    result.centroid_phi = sample_centroids(result.phi, result.complex, result.frame);
+    return label_by_sign(result.centroid_phi);
+  });
+
+  // Stage 2: graph construction.
+  result.graph = stage("graph", [&] {
+    result.facets = list_facets(result.complex);
+    result.areas =
+        quantise_areas(result.complex, result.facets, result.frame.unit, options.area_bits);
+    result.anchors = options.unary
+                         ? anchor_cells(result.complex, result.initial_label, options.exterior)
+                         : std::vector<Anchor>(result.complex.cells.size(), Anchor::free);
+    return build_cell_graph(result.complex, result.facets, result.areas, result.initial_label,
+                            result.anchors, options.lambda_fill);
+  });
+
+  // Stage 3: optimization and extraction.
+  result.cut = stage("minimum cut", [&] {
+    return solver.solve(result.graph.problem, SolveOptions{.observer = &observer});
+  });
+  if (result.cut.status == CutStatus::invalid) return result;
+  result.smallest_interior = expand_labels(result.graph, result.cut.smallest_source_side);
+  result.largest_interior = expand_labels(result.graph, result.cut.largest_source_side);
+  result.label = options.cut == CutChoice::largest ? result.largest_interior
+                                                   : result.smallest_interior;
+  result.certificate = stage("certificate", [&] {
+    result.facet_flow =
+        lift_flow(result.graph, result.facets, result.areas, result.initial_label,
+                  result.anchors, options.lambda_fill, result.cut.edge_flow);
+    return certify(result, options);
+  });
+  if (result.empty_solid()) return result;
+  result.surface = stage("surface", [&] {
+    TriangleSoup surface = extract_surface(result, options.surface, observer);
+    result.dropped_components = drop_small_components(surface, options.min_component);
+    return as_read_back(surface, options.output_format);
+  });
+  result.surface_report = stage("validity", [&] {
+    return inspect_surface(result.surface, SurfaceCheckOptions{.observer = &observer});
+  });
+  return result;
+}
+
+}  // namespace cellocut

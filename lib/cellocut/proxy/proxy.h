@@ -1,0 +1,35 @@
+// The simplified proxy S_sim: the surface phi = 0 with most of its faces removed. Its vertices become the
+// points of the Delaunay complex.
+#pragma once
+
+#include <vector>
+
+#include "cellocut/base/observer.h"
+#include "cellocut/field/frame.h"
+#include "cellocut/field/sparse_field.h"
+#include "cellocut/mesh/triangle_soup.h"
+
+namespace cellocut {
+
+// How far the proxy may depart from phi = 0, in grid steps.
+inline constexpr double kProxyTolerance = 0.5;
+
+struct Proxy {
+  // In input units, rounded once to the doubles that files will hold. Need not be manifold: where
+  // decimation went further than the tolerance, faces were split one by one.
+  TriangleSoup mesh;
+  std::int64_t faces_before = 0;
+  double removed_share = 0;    // 1 - faces / faces_before, as reached
+  double largest_distance = 0; // measured max of |phi| over the proxy, in grid steps
+  std::int64_t points_added = 0;  // by splitting faces that were too far away
+};
+
+// Decimates `surface` (phi = 0 in index coordinates, from extract_iso_surface) by quadrics until
+// `removed_share` of its faces are gone, then measures |phi| over every face on a raster of half a grid
+// step and splits the faces that are further away than kProxyTolerance, at the worst place moved onto
+// phi = 0, until none is left: the distance wins over the share.
+// Preconditions: removed_share in [0, 0.99]. Errors: Cancelled.
+Proxy make_proxy(const TriangleSoup& surface, const SparseField& phi, const Frame& frame,
+                 double removed_share, Observer& observer);
+
+}  // namespace cellocut

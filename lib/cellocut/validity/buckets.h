@@ -1,0 +1,61 @@
+// Items grouped by a small integer key, in compressed rows.
+#pragma once
+
+#include <tbb/parallel_for.h>
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace cellocut {
+
+inline constexpr std::uint32_t kNoBucket = UINT32_MAX;
+
+class Buckets {
+ public:
+  // Puts item i of [0, items) into bucket key_of(i) of [0, buckets), or into none for kNoBucket.
+  // The order of the items *within* a bucket depends on the schedule: whoever uses it sorts, or
+  // computes what no order can change. O(items + buckets); parallel. Precondition: fewer than 2^32
+  // items; key_of may be called at once from several threads.
+  template <class KeyOf>
+  Buckets(std::size_t buckets, std::size_t items, const KeyOf& key_of) : begin_(buckets + 1, 0) {
+    tbb::parallel_for(std::size_t{0}, items, [&](std::size_t i) {
+      if (const std::uint32_t key = key_of(i); key != kNoBucket) fetch_increment(begin_[key]);
+    });
+    std::uint32_t end = 0;
+    for (std::uint32_t& entry : begin_) {
+      end += entry;
+      entry = end;
+    }
+    items_.resize(end);
+    // Filling from the back turns each end into the begin of its bucket.
+    tbb::parallel_for(std::size_t{0}, items, [&](std::size_t i) {
+      if (const std::uint32_t key = key_of(i); key != kNoBucket) {
+        items_[fetch_decrement(begin_[key]) - 1] = static_cast<std::uint32_t>(i);
+      }
+    });
+  }
+
+  [[nodiscard]] std::size_t size() const { return begin_.size() - 1; }
+  [[nodiscard]] std::span<std::uint32_t> operator[](std::size_t bucket) {
+    return {items_.data() + begin_[bucket], items_.data() + begin_[bucket + 1]};
+  }
+  [[nodiscard]] std::span<const std::uint32_t> operator[](std::size_t bucket) const {
+    return {items_.data() + begin_[bucket], items_.data() + begin_[bucket + 1]};
+  }
+
+ private:
+  static void fetch_increment(std::uint32_t& value) {
+    std::atomic_ref(value).fetch_add(1, std::memory_order_relaxed);
+  }
+  static std::uint32_t fetch_decrement(std::uint32_t& value) {
+    return std::atomic_ref(value).fetch_sub(1, std::memory_order_relaxed);
+  }
+
+  std::vector<std::uint32_t> begin_;
+  std::vector<std::uint32_t> items_;
+};
+
+}  // namespace cellocut

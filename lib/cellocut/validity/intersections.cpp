@@ -1,0 +1,257 @@
+#include "cellocut/validity/intersections.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_sort.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+
+#include "cellocut/validity/box_tree.h"
+#include "cellocut/validity/triangle_pair.h"
+
+namespace cellocut {
+
+namespace {
+
+// Maps coordinates into [-1, 1] by x -> (x - centre) * scale. Each step is monotone also after
+// rounding, and so is the conversion to float: boxes that overlap before do so afterwards, and no
+// box needs to be widened. (Rounding may make boxes overlap that did not; the exact test sees to
+// those.)
+class Frame {
+ public:
+  explicit Frame(const Box3& box) {
+    double extent = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+      centre_[axis] = 0.5 * box.low[axis] + 0.5 * box.high[axis];
+      extent = std::fmax(extent, 0.5 * box.high[axis] - 0.5 * box.low[axis]);
+    }
+    scale_ = extent > 0 ? std::ldexp(1.0, std::min(1000, -std::ilogb(extent) - 1)) : 1.0;
+  }
+  [[nodiscard]] Point3 operator()(const Point3& p) const { return scale_ * (p - centre_); }
+
+ private:
+  Point3 centre_{};
+  double scale_ = 1;
+};
+
+FloatBox box_of(const Point3& a, const Point3& b, const Point3& c) {
+  FloatBox box{};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    box.low[axis] = static_cast<float>(std::min({a[axis], b[axis], c[axis]}));
+    box.high[axis] = static_cast<float>(std::max({a[axis], b[axis], c[axis]}));
+  }
+  return box;
+}
+
+// The plane of a face in frame coordinates: tells boxes that it surely does not cut.
+class FacePlane {
+ public:
+  FacePlane(const Point3& a, const Point3& b, const Point3& c)
+      : point_(a), normal_(cross(b - a, c - a)) {
+    double edge = 0;
+    double sum = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+      edge = std::fmax(edge, std::fmax(std::fabs(b[axis] - a[axis]), std::fabs(c[axis] - a[axis])));
+      sum += std::fabs(normal_[axis]);
+    }
+    // Far above the rounding of the boxes (2^-24) and of the normal (some 2^-52 times the edges).
+    slack_ = 1e-5 * sum + 1e-14 * edge;
+  }
+  [[nodiscard]] bool may_cut(const FloatBox& box) const {
+    double distance = 0;
+    double radius = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double low = static_cast<double>(box.low[axis]);
+      const double high = static_cast<double>(box.high[axis]);
+      distance += normal_[axis] * (0.5 * (low + high) - point_[axis]);
+      radius += std::fabs(normal_[axis]) * 0.5 * (high - low);
+    }
+    return std::fabs(distance) <= radius + slack_;
+  }
+
+ private:
+  Point3 point_;
+  Point3 normal_;
+  double slack_ = 0;
+};
+
+// The pairs that one thread has found: all counted, the smallest `max_pairs` kept.
+class PairList {
+ public:
+  void add(std::uint32_t f, std::uint32_t g, std::size_t max_pairs) {
+    ++count_;
+    if (max_pairs == 0) return;
+    pairs_.emplace_back(std::min(f, g), std::max(f, g));
+    if (pairs_.size() / 2 > max_pairs + 1024) keep_smallest(max_pairs);
+  }
+  void keep_smallest(std::size_t max_pairs) {
+    if (pairs_.size() <= max_pairs) return;
+    const auto end = pairs_.begin() + static_cast<std::ptrdiff_t>(max_pairs);
+    std::nth_element(pairs_.begin(), end, pairs_.end());
+    pairs_.erase(end, pairs_.end());
+  }
+  [[nodiscard]] std::int64_t count() const { return count_; }
+  [[nodiscard]] const std::vector<FacePair>& pairs() const { return pairs_; }
+
+ private:
+  std::int64_t count_ = 0;
+  std::vector<FacePair> pairs_;
+};
+
+// Faces in classes by extent, smallest first; the lowest class holds all up to four times the
+// median. (Which face is in which class changes the time, never the result.)
+std::vector<std::vector<std::uint32_t>> size_classes(const std::vector<std::uint32_t>& faces,
+                                                     const std::vector<FloatBox>& boxes) {
+  std::vector<float> sample;
+  for (std::size_t i = 0; i < faces.size(); i += faces.size() / 4096 + 1) {
+    sample.push_back(boxes[faces[i]].longest_edge());
+  }
+  const auto middle = sample.begin() + static_cast<std::ptrdiff_t>(sample.size() / 2);
+  std::nth_element(sample.begin(), middle, sample.end());
+  const double unit = std::fmax(4.0 * static_cast<double>(*middle), 1e-30);
+  std::vector<std::vector<std::uint32_t>> classes;
+  for (const std::uint32_t face : faces) {
+    const double ratio = static_cast<double>(boxes[face].longest_edge()) / unit;
+    const auto index =
+        ratio <= 1 ? std::size_t{0} : static_cast<std::size_t>(std::ilogb(ratio) / 4 + 1);
+    if (classes.size() <= index) classes.resize(index + 1);
+    classes[index].push_back(face);
+  }
+  std::erase_if(classes, [](const auto& members) { return members.empty(); });
+  return classes;
+}
+
+class Search {
+ public:
+  Search(const std::vector<Point3>& points, const std::vector<Triangle>& triangles,
+         std::vector<std::uint32_t> faces, std::size_t max_pairs, Observer& observer)
+      : points_(points),
+        triangles_(triangles),
+        faces_(std::move(faces)),
+        frame_(box_of_faces()),
+        max_pairs_(max_pairs),
+        observer_(observer) {}
+
+  IntersectingPairs run() {
+    std::vector<FloatBox> boxes(triangles_.size());
+    tbb::parallel_for(std::size_t{0}, faces_.size(), [&](std::size_t i) {
+      const auto [a, b, c] = frame_corners(faces_[i]);
+      boxes[faces_[i]] = box_of(a, b, c);
+    });
+    observer_.check();
+    const auto classes = size_classes(faces_, boxes);
+    std::vector<BoxTree> trees;
+    for (const auto& members : classes) {
+      trees.emplace_back(members, boxes);
+      observer_.check();
+    }
+    for (std::size_t k = 0; k < trees.size(); ++k) {
+      search_within(trees[k], classes[k].size());
+      for (std::size_t smaller = 0; smaller < k; ++smaller) {
+        search_between(classes[k], boxes, trees[smaller]);
+      }
+    }
+    return collect();
+  }
+
+ private:
+  [[nodiscard]] Box3 box_of_faces() const {
+    Box3 box{points_[triangles_[faces_[0]][0]], points_[triangles_[faces_[0]][0]]};
+    for (const std::uint32_t face : faces_) {
+      for (const std::uint32_t v : triangles_[face]) {
+        for (int axis = 0; axis < 3; ++axis) {
+          box.low[axis] = std::min(box.low[axis], points_[v][axis]);
+          box.high[axis] = std::max(box.high[axis], points_[v][axis]);
+        }
+      }
+    }
+    return box;
+  }
+
+  [[nodiscard]] std::array<Point3, 3> frame_corners(std::uint32_t face) const {
+    const Triangle& t = triangles_[face];
+    return {frame_(points_[t[0]]), frame_(points_[t[1]]), frame_(points_[t[2]])};
+  }
+
+  void test(std::uint32_t f, std::uint32_t g, PairList& found) const {
+    if (faces_intersect(points_, triangles_[f], triangles_[g])) found.add(f, g, max_pairs_);
+  }
+
+  void search_within(const BoxTree& tree, std::size_t members) {
+    const tbb::blocked_range<std::size_t> leaves(0, tree.leaf_count(), 64);
+    tbb::parallel_for(leaves, [&](const auto& range) {
+      observer_.check();
+      PairList& found = found_.local();
+      for (std::size_t leaf = range.begin(); leaf < range.end(); ++leaf) {
+        tree.visit_pairs_of_leaf(leaf,
+                                 [&](std::uint32_t f, std::uint32_t g) { test(f, g, found); });
+      }
+      const double share =
+          static_cast<double>(range.size()) / static_cast<double>(tree.leaf_count());
+      report(share * static_cast<double>(members));
+    });
+  }
+
+  void search_between(const std::vector<std::uint32_t>& large, const std::vector<FloatBox>& boxes,
+                      const BoxTree& small) {
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, large.size(), 1), [&](const auto& range) {
+      observer_.check();
+      PairList& found = found_.local();
+      for (std::size_t i = range.begin(); i < range.end(); ++i) {
+        const std::uint32_t face = large[i];
+        const auto [a, b, c] = frame_corners(face);
+        const FacePlane plane(a, b, c);
+        small.visit_boxes(
+            [&](const FloatBox& box) { return overlap(box, boxes[face]) && plane.may_cut(box); },
+            [&](std::uint32_t other) { test(face, other, found); });
+      }
+    });
+  }
+
+  void report(double faces) {
+    double done = done_.load(std::memory_order_relaxed);
+    while (!done_.compare_exchange_weak(done, done + faces, std::memory_order_relaxed)) {
+    }
+    observer_.progress(std::min(1.0, (done + faces) / static_cast<double>(faces_.size())));
+  }
+
+  IntersectingPairs collect() {
+    IntersectingPairs result;
+    for (const PairList& found : found_) {
+      result.count += found.count();
+      result.first.insert(result.first.end(), found.pairs().begin(), found.pairs().end());
+    }
+    tbb::parallel_sort(result.first.begin(), result.first.end());
+    if (result.first.size() > max_pairs_) result.first.resize(max_pairs_);
+    return result;
+  }
+
+  const std::vector<Point3>& points_;
+  const std::vector<Triangle>& triangles_;
+  std::vector<std::uint32_t> faces_;
+  Frame frame_;
+  std::size_t max_pairs_;
+  Observer& observer_;
+  tbb::enumerable_thread_specific<PairList> found_;
+  std::atomic<double> done_{0};
+};
+
+}  // namespace
+
+IntersectingPairs find_intersecting_pairs(const std::vector<Point3>& points,
+                                          const std::vector<Triangle>& triangles,
+                                          const std::vector<std::uint8_t>& takes_part,
+                                          std::size_t max_pairs, Observer& observer) {
+  std::vector<std::uint32_t> faces;
+  faces.reserve(triangles.size());
+  for (std::uint32_t face = 0; face < triangles.size(); ++face) {
+    if (takes_part[face] != 0) faces.push_back(face);
+  }
+  if (faces.empty()) return {};
+  return Search(points, triangles, std::move(faces), max_pairs, observer).run();
+}
+
+}  // namespace cellocut

@@ -1,0 +1,82 @@
+#include "tools/labelled_cells.h"
+
+#include "cellocut_version.h"
+
+namespace cellocut::tools {
+
+namespace {
+
+// Number of the connected component of equal label, through facets, in order of the lowest cell.
+std::vector<std::int32_t> label_components(const TetComplex& complex, const CellLabels& labels) {
+  std::vector<std::int32_t> component(labels.size(), -1);
+  std::int32_t count = 0;
+  std::vector<std::uint32_t> stack;
+  for (std::uint32_t seed = 0; seed < labels.size(); ++seed) {
+    if (component[seed] >= 0) continue;
+    component[seed] = count;
+    stack.push_back(seed);
+    while (!stack.empty()) {
+      const std::uint32_t c = stack.back();
+      stack.pop_back();
+      for (const std::int32_t other : complex.neighbours[c]) {
+        if (other == kOutside || component[other] >= 0 || labels[other] != labels[c]) continue;
+        component[other] = count;
+        stack.push_back(static_cast<std::uint32_t>(other));
+      }
+    }
+    ++count;
+  }
+  return component;
+}
+
+}  // namespace
+
+viz::LabelledCells labelled_cells(const RemeshResult& result, const RemeshOptions& options,
+                                  const std::string& solver) {
+  const std::size_t n = result.complex.cells.size();
+  viz::LabelledCells cells;
+  cells.points = result.complex.points;
+  cells.cells = result.complex.cells;
+  if (!result.label.empty()) cells.arrays.push_back({"label", result.label});
+  cells.arrays.push_back({"label_initial", result.initial_label});
+  std::vector<std::uint8_t> anchored(n);
+  for (std::size_t c = 0; c < n; ++c) anchored[c] = static_cast<std::uint8_t>(result.anchors[c]);
+  cells.arrays.push_back({"anchored", anchored});
+  if (!result.label.empty()) {
+    std::vector<std::uint8_t> ambiguous(n);
+    for (std::size_t c = 0; c < n; ++c) {
+      ambiguous[c] = result.smallest_interior[c] != result.largest_interior[c] ? 1 : 0;
+    }
+    cells.arrays.push_back({"ambiguous", ambiguous});
+    cells.arrays.push_back({"component", label_components(result.complex, result.label)});
+  }
+  std::vector<float> phi(n);
+  std::vector<double> volume(n);
+  for (std::uint32_t c = 0; c < n; ++c) {
+    phi[c] = static_cast<float>(result.centroid_phi[c] * result.frame.spacing);
+    volume[c] = cell_volume(result.complex, c);
+  }
+  cells.arrays.push_back({"phi", phi});
+  cells.arrays.push_back({"volume", volume});
+
+  const double energy_unit = result.frame.unit * result.frame.unit /
+                             (result.areas.scale * static_cast<double>(options.lambda_fill.denominator));
+  cells.fields = {
+      {"cellocut_version", std::string(kCellocutVersion)},
+      {"legend_label", std::string("0 interior, 1 exterior")},
+      {"legend_anchored", std::string("0 free, 1 fixed interior, 2 fixed exterior")},
+      {"solver", solver},
+      {"lambda_fill", to_string(options.lambda_fill)},
+      {"resolution", static_cast<std::int64_t>(options.resolution)},
+      {"epsilon", result.derived.epsilon},
+      {"unit", result.frame.unit},
+      {"area_bits", static_cast<std::int64_t>(options.area_bits)},
+      {"area_quantum", 1 / result.areas.scale},
+      {"cut_value", result.cut.value},
+      {"cut_lower_bound", result.cut.lower_bound},
+      {"energy", static_cast<double>(result.cut.value) * energy_unit},
+  };
+  return cells;
+}
+
+}  // namespace cellocut::tools

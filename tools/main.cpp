@@ -1,0 +1,39 @@
+// The `cellocut` program: picks the subcommand, runs it, turns exceptions into exit codes.
+#include <CLI/CLI.hpp>
+#include <vector>
+
+#include "cellocut_version.h"
+#include "tools/commands.h"
+#include "tools/exit_code.h"
+#include "tools/session.h"
+
+int main(int argc, char** argv) {
+  using namespace cellocut::tools;
+  CLI::App program{
+      "Turns a defective triangle mesh into a closed, manifold, embedded solid by a minimum cut over "
+      "the cells of a Delaunay tetrahedralization."};
+  program.name("cellocut");
+  program.set_version_flag("--version", kCellocutVersion);
+  program.require_subcommand(1);
+  std::vector<Command> commands{add_remesh(program), add_check(program), add_list(program)};
+#ifdef CELLOCUT_WITH_VIZ
+  commands.push_back(add_section(program));
+#endif
+  try {
+    program.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return program.exit(error);  // --help, --version
+    print_error(std::string(error.what()) + " (see cellocut --help)");
+    return kUsage;
+  }
+  install_signal_handlers();
+  for (const Command& command : commands) {
+    if (!command.app->parsed()) continue;
+    try {
+      return command.run();
+    } catch (const std::exception& error) {
+      return report_error(error, command.input ? command.input() : std::string());
+    }
+  }
+  return kUsage;
+}

@@ -1,0 +1,245 @@
+// cellocut remesh: a defective mesh in, a closed manifold solid out.
+#include <fmt/core.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "backends/backends.h"
+#include "cellocut/base/stopwatch.h"
+#include "cellocut/pipeline.h"
+#include "solvers/solvers.h"
+#include "tools/commands.h"
+#include "tools/exit_code.h"
+#include "tools/report_json.h"
+#include "tools/session.h"
+#ifdef CELLOCUT_WITH_VIZ
+#include "tools/labelled_cells.h"
+#endif
+
+namespace cellocut::tools {
+
+namespace {
+
+struct RemeshArguments {
+  CommonOptions common;
+  std::string input;
+  std::string input_format;
+  std::string output;
+  std::string output_format;
+  std::string backend = "cgal";
+  std::string solver = "bk";
+  std::string lambda = "20";
+  std::string exterior = "unbounded";
+  std::string cut = "largest";
+  std::string surface = "sdf";
+  std::string vtu;
+  std::string keep_invalid;
+  bool no_thickening = false;
+  bool no_unary = false;
+  RemeshOptions options;
+};
+
+void add_arguments(CLI::App& app, RemeshArguments& a) {
+  app.add_option("input", a.input, "Mesh: .obj .off .ply .stl, or '-' for standard input")
+      ->required();
+  app.add_option("--format", a.input_format,
+                 "Format of the input: obj, off, ply, stl (default: by its name)");
+  app.add_option("-o,--output", a.output, "Surface: .obj .off .ply .stl, or '-'")->required();
+  app.add_option("--output-format", a.output_format,
+                 "Format of the output: obj, off, ply, ply-ascii, stl, stl-ascii (default: by its "
+                 "name)");
+  app.add_option("--backend", a.backend, "Tetrahedralization backend (see cellocut list)")
+      ->capture_default_str();
+  app.add_option("--solver", a.solver, "Minimum-cut solver (see cellocut list)")
+      ->capture_default_str();
+  app.add_option("-R,--resolution", a.options.resolution,
+                 "Grid steps along the longest edge of the box, 8 to 16384")
+      ->capture_default_str();
+  auto* epsilon = app.add_option("--epsilon", a.options.epsilon,
+                                 "Thickening offset relative to the longest edge (default: max(1/512, "
+                                 "1/resolution))");
+  app.add_option("--epsilon-abs", a.options.epsilon_absolute,
+                 "Thickening offset in input units")
+      ->excludes(epsilon);
+  app.add_option("--decimate", a.options.decimate, "Share of the proxy's faces to remove, 0 to 0.99")
+      ->capture_default_str();
+  app.add_option("--lambda-fill", a.lambda,
+                 "Weight of an unsupported interface: a number or p/q, terms up to 2^20")
+      ->capture_default_str();
+  app.add_option("--exterior", a.exterior,
+                 "What is fixed exterior: the unbounded region, or every hull cell that is not "
+                 "initially interior")
+      ->check(CLI::IsMember({"unbounded", "hull-cells"}))
+      ->capture_default_str();
+  app.add_option("--area-bits", a.options.area_bits,
+                 "Facet areas sum to at most 2^bits quanta, 8 to 50")
+      ->capture_default_str();
+  app.add_option("--cut", a.cut, "Which of the minimum cuts: the smallest or the largest interior")
+      ->check(CLI::IsMember({"smallest", "largest"}))
+      ->capture_default_str();
+  app.add_option("--surface", a.surface,
+                 "sdf: signed distance of the interface, marching cubes; cells: the interface itself")
+      ->check(CLI::IsMember({"sdf", "cells"}))
+      ->capture_default_str();
+  app.add_option("--min-component", a.options.min_component,
+                 "Drop components below this share of the total volume, 0 to 1")
+      ->capture_default_str();
+  app.add_flag("--no-thickening", a.no_thickening,
+               "Ablation: phi is the flood-signed distance, no offset");
+  app.add_flag("--no-unary", a.no_unary, "Ablation: no cell is anchored interior");
+  app.add_option("--keep-invalid", a.keep_invalid,
+                 "Where a surface goes that fails its check (it never replaces the output)");
+#ifdef CELLOCUT_WITH_VIZ
+  app.add_option("--vtu", a.vtu, "Labelled tetrahedra for ParaView");
+#endif
+  a.common.add_to(app);
+}
+
+std::optional<MeshFormat> named_format(const std::string& name) {
+  if (name.empty()) return {};
+  return format_of_name(name);
+}
+
+void complete_options(RemeshArguments& a) {
+  a.options.lambda_fill = parse_rational(a.lambda);
+  a.options.exterior =
+      a.exterior == "unbounded" ? ExteriorMode::unbounded : ExteriorMode::hull_cells;
+  a.options.cut = a.cut == "largest" ? CutChoice::largest : CutChoice::smallest;
+  a.options.surface = a.surface == "sdf" ? SurfaceMode::sdf : SurfaceMode::cells;
+  a.options.thickening = !a.no_thickening;
+  a.options.unary = !a.no_unary;
+  std::optional<MeshFormat> format = named_format(a.output_format);
+  if (!format) format = format_of_path(a.output);
+  if (!format) {
+    throw UsageError(a.output +
+                     ": the output's format is not told by its name; use .obj, .off, .ply or .stl, "
+                     "or --output-format");
+  }
+  a.options.output_format = *format;
+  a.options.validate();
+  const int to_standard_output =
+      (a.output == "-" ? 1 : 0) + (a.vtu == "-" ? 1 : 0) + (a.common.json == "-" ? 1 : 0);
+  if (to_standard_output > 1) throw UsageError("only one output can be standard output");
+  require_writable({a.output, a.vtu, a.common.json, a.keep_invalid});
+}
+
+void print_summary(const RemeshResult& result, const RemeshArguments& a, double read_seconds,
+                   double write_seconds) {
+  if (a.common.quiet || a.output == "-" || a.common.json == "-" || a.vtu == "-") return;
+  fmt::print("{:<20} {:>9}\n", "stage", "seconds");
+  double total = read_seconds + write_seconds;
+  fmt::print("{:<20} {:>9.3f}\n", "read", read_seconds);
+  for (const StageTime& stage : result.stages) {
+    fmt::print("{:<20} {:>9.3f}\n", stage.name, stage.seconds);
+    total += stage.seconds;
+  }
+  fmt::print("{:<20} {:>9.3f}\n{:<20} {:>9.3f}\n", "write", write_seconds, "total", total);
+  fmt::print("peak memory {:.2f} GB\n", static_cast<double>(peak_memory_bytes()) * 1e-9);
+  fmt::print("cells {}, facets {}, nodes {}, edges {}\n", result.complex.cells.size(),
+             result.facets.size(), result.graph.problem.node_count(),
+             result.graph.problem.edges.size());
+  fmt::print("cut value {} ({}), certificate {}\n", result.cut.value,
+             to_string(result.cut.status), result.certificate.valid ? "valid" : "FAILED");
+  if (result.surface.empty()) return;
+  const SurfaceReport& report = result.surface_report;
+  fmt::print("surface: {} triangles, {} component{}, volume {:.6g}, {}\n", report.triangles,
+             report.components.size(), report.components.size() == 1 ? "" : "s", report.volume,
+             report.valid() ? "closed, manifold, embedded" : "NOT VALID");
+}
+
+std::string describe_defects(const SurfaceReport& report) {
+  std::string text;
+  const auto add = [&](std::int64_t count, const char* what) {
+    if (count > 0) text += (text.empty() ? "" : ", ") + std::to_string(count) + " " + what;
+  };
+  add(report.by_index.boundary_edges, "boundary edges");
+  add(report.by_index.nonmanifold_edges, "non-manifold edges");
+  add(report.by_index.nonmanifold_vertices, "non-manifold vertices");
+  add(report.by_index.misoriented_edges, "misoriented edges");
+  add(report.degenerate_faces, "degenerate faces");
+  add(report.intersecting_pairs, "intersecting pairs");
+  return text.empty() ? "no faces" : text;
+}
+
+// Says in one line what is wrong, if anything; the exit code.
+int judge(const RemeshResult& result, const RemeshArguments& a) {
+  if (result.cut.status == CutStatus::invalid) {
+    print_error(a.input + ": solver '" + a.solver + "': " + result.cut.message);
+    return kCertificateFailed;
+  }
+  if (!result.certificate.valid) {
+    std::string first;
+    for (const CertificateCheck& check : result.certificate.checks) {
+      if (!check.passed && first.empty()) first = check.name + ": " + check.detail;
+    }
+    print_error(a.input + ": the certificate of the cut failed: " + first);
+    return kCertificateFailed;
+  }
+  if (result.empty_solid()) {
+    print_error(a.input + ": no cell is interior, there is no solid to write");
+    return kNoGuarantee;
+  }
+  if (!result.surface_report.valid()) {
+    const bool stl = a.options.output_format == MeshFormat::stl ||
+                     a.options.output_format == MeshFormat::stl_ascii;
+    print_error(a.output + ": not written, the surface would not be valid (" +
+                describe_defects(result.surface_report) + ")" +
+                (stl ? "; STL merges equal points and binary STL rounds them: use OBJ or PLY" : ""));
+    return kNoGuarantee;
+  }
+  return kDone;
+}
+
+int run_remesh(RemeshArguments& a) {
+  complete_options(a);
+  const std::unique_ptr<Tetrahedralizer> tetrahedralizer = backends::make(a.backend);
+  const std::unique_ptr<CutSolver> solver = solvers::make(a.solver);
+  const ThreadLimit limit(a.common.threads);
+  TerminalObserver observer(a.common);
+
+  Stopwatch stopwatch;
+  observer.stage("read");
+  const TriangleSoup input = read_mesh(a.input, named_format(a.input_format));
+  const double read_seconds = stopwatch.seconds();
+
+  const RemeshResult result = remesh(input, a.options, *tetrahedralizer, *solver, observer);
+
+  stopwatch.restart();
+  observer.check();
+  observer.stage("write");
+  const int code = judge(result, a);
+#ifdef CELLOCUT_WITH_VIZ
+  if (!a.vtu.empty()) write_text(a.vtu, encode_vtu(labelled_cells(result, a.options, a.solver)));
+#endif
+  if (code == kDone) write_mesh(result.surface, a.output, a.options.output_format);
+  if (code != kDone && !a.keep_invalid.empty() && !result.surface.empty()) {
+    write_mesh(result.surface, a.keep_invalid,
+               format_of_path(a.keep_invalid).value_or(MeshFormat::obj));
+  }
+  const double write_seconds = stopwatch.seconds();
+  observer.clear();
+  if (!a.common.json.empty()) {
+    const RunFacts facts{a.input,          code == kDone ? a.output : "", a.backend, a.solver,
+                         limit.threads(), read_seconds,                  write_seconds};
+    write_text(a.common.json, remesh_json(result, a.options, input, facts).dump(2) + "\n");
+  }
+  if (result.derived.epsilon_below_step && !a.common.quiet) {
+    print_error("warning: epsilon is below one grid step, thin parts may perforate");
+  }
+  print_summary(result, a, read_seconds, write_seconds);
+  return code;
+}
+
+}  // namespace
+
+Command add_remesh(CLI::App& program) {
+  CLI::App* app = program.add_subcommand(
+      "remesh", "A defective mesh in, a closed, manifold, embedded solid out");
+  auto arguments = std::make_shared<RemeshArguments>();
+  add_arguments(*app, *arguments);
+  return {app, [arguments] { return run_remesh(*arguments); },
+          [arguments] { return arguments->input; }};
+}
+
+}  // namespace cellocut::tools

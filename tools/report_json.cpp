@@ -1,0 +1,158 @@
+#include "tools/report_json.h"
+
+#include <nlohmann/json.hpp>
+
+#include "cellocut_version.h"
+#include "tools/session.h"
+
+namespace cellocut::tools {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json incidence_json(const IncidenceCounts& counts) {
+  return {{"boundary_edges", counts.boundary_edges},
+          {"nonmanifold_edges", counts.nonmanifold_edges},
+          {"nonmanifold_vertices", counts.nonmanifold_vertices},
+          {"misoriented_edges", counts.misoriented_edges},
+          {"duplicate_faces", counts.duplicate_faces}};
+}
+
+Json parameters_json(const RemeshResult& result, const RemeshOptions& options) {
+  return {{"resolution", options.resolution},
+          {"epsilon", result.derived.epsilon},
+          {"epsilon_abs", result.derived.epsilon * result.frame.unit},
+          {"epsilon_below_step", result.derived.epsilon_below_step},
+          {"grid_step", result.frame.spacing},
+          {"unit", result.frame.unit},
+          {"decimate", options.decimate},
+          {"lambda_fill", to_string(options.lambda_fill)},
+          {"exterior", options.exterior == ExteriorMode::unbounded ? "unbounded" : "hull-cells"},
+          {"area_bits", options.area_bits},
+          {"cut", options.cut == CutChoice::largest ? "largest" : "smallest"},
+          {"surface", options.surface == SurfaceMode::sdf ? "sdf" : "cells"},
+          {"thickening", options.thickening},
+          {"unary", options.unary},
+          {"min_component", options.min_component}};
+}
+
+std::int64_t count_interior(const CellLabels& labels) {
+  return std::count(labels.begin(), labels.end(), kInterior);
+}
+
+Json cut_json(const RemeshResult& result, const RemeshOptions& options, const RunFacts& facts) {
+  const double quantum = 1 / result.areas.scale;  // squared relative units
+  const double unit_energy =
+      quantum * result.frame.unit * result.frame.unit /
+      static_cast<double>(options.lambda_fill.denominator);  // squared input units
+  Json counters = Json::object();
+  for (const auto& [name, value] : result.cut.counters) counters[name] = value;
+  return {{"backend", facts.backend},
+          {"solver", facts.solver},
+          {"status", to_string(result.cut.status)},
+          {"message", result.cut.message},
+          {"value", result.cut.value},
+          {"constant", result.graph.problem.constant},
+          {"energy", static_cast<double>(result.cut.value) * unit_energy},
+          {"lower_bound", result.cut.lower_bound},
+          {"gap", result.cut.value - result.cut.lower_bound},
+          {"build_seconds", result.cut.build_seconds},
+          {"solve_seconds", result.cut.solve_seconds},
+          {"verify_seconds", result.cut.verify_seconds},
+          {"solver_bytes", result.cut.bytes},
+          {"counters", counters},
+          {"area_bits", options.area_bits},
+          {"area_quantum", quantum},
+          {"area_largest_error", result.areas.largest_error},
+          {"area_total_error", result.areas.total_error},
+          {"lambda_num", options.lambda_fill.numerator},
+          {"lambda_den", options.lambda_fill.denominator},
+          {"interior_cells", count_interior(result.label)},
+          {"interior_cells_smallest", count_interior(result.smallest_interior)},
+          {"interior_cells_largest", count_interior(result.largest_interior)}};
+}
+
+Json certificate_json(const CertificateReport& certificate) {
+  Json checks = Json::array();
+  for (const CertificateCheck& check : certificate.checks) {
+    checks.push_back({{"name", check.name}, {"passed", check.passed}, {"detail", check.detail}});
+  }
+  return {{"valid", certificate.valid}, {"checks", checks}};
+}
+
+Json stages_json(const RemeshResult& result, const RunFacts& facts) {
+  Json stages = Json::array();
+  const auto add = [&](const std::string& name, double seconds) {
+    stages.push_back({{"name", name}, {"seconds", seconds}, {"threads", facts.threads}});
+  };
+  add("read", facts.read_seconds);
+  for (const StageTime& stage : result.stages) add(stage.name, stage.seconds);
+  add("write", facts.write_seconds);
+  return stages;
+}
+
+}  // namespace
+
+Json output_json(const SurfaceReport& report, const std::string& path) {
+  Json components = Json::array();
+  for (const SurfaceComponent& component : report.components) {
+    components.push_back({{"triangles", component.triangles}, {"volume", component.volume}});
+  }
+  Json pairs = Json::array();
+  for (const auto& [a, b] : report.pairs) pairs.push_back({a, b});
+  return {{"path", path},
+          {"valid", report.valid()},
+          {"points", report.points},
+          {"triangles", report.triangles},
+          {"boundary_edges", report.by_index.boundary_edges},
+          {"nonmanifold_edges", report.by_index.nonmanifold_edges},
+          {"nonmanifold_vertices", report.by_index.nonmanifold_vertices},
+          {"misoriented_edges", report.by_index.misoriented_edges},
+          {"duplicate_faces", report.by_index.duplicate_faces},
+          {"degenerate_faces", report.degenerate_faces},
+          {"nonfinite_points", report.nonfinite_points},
+          {"intersecting_pairs", report.intersecting_pairs},
+          {"touching_edges", report.touching_edges},
+          {"touching_vertices", report.touching_vertices},
+          {"by_position", incidence_json(report.by_position)},
+          {"components", components},
+          {"volume", report.volume},
+          {"area", report.area},
+          {"euler", report.euler},
+          {"first_intersecting_pairs", pairs}};
+}
+
+Json remesh_json(const RemeshResult& result, const RemeshOptions& options,
+                 const TriangleSoup& input, const RunFacts& facts) {
+  Json report;
+  report["version"] = kCellocutVersion;
+  report["input"] = {{"path", facts.input},
+                     {"points", input.points.size()},
+                     {"triangles", input.triangles.size()}};
+  report["parameters"] = parameters_json(result, options);
+  report["stages"] = stages_json(result, facts);
+  report["peak_memory_bytes"] = peak_memory_bytes();
+  report["proxy"] = {{"faces_before", result.proxy.faces_before},
+                     {"faces", result.proxy.mesh.triangles.size()},
+                     {"removed_share", result.proxy.removed_share},
+                     {"largest_distance_steps", result.proxy.largest_distance},
+                     {"points_added", result.proxy.points_added}};
+  report["field"] = {{"stored_values", result.phi.stored_values()},
+                     {"bytes", result.phi.bytes()}};
+  report["counts"] = {{"vertices", result.complex.points.size()},
+                      {"cells", result.complex.cells.size()},
+                      {"facets", result.facets.size()},
+                      {"nodes", result.graph.problem.node_count()},
+                      {"edges", result.graph.problem.edges.size()},
+                      {"nodes_removed", result.graph.anchored_cells + result.graph.enclosed_cells},
+                      {"cells_anchored", result.graph.anchored_cells},
+                      {"cells_enclosed", result.graph.enclosed_cells}};
+  report["cut"] = cut_json(result, options, facts);
+  report["certificate"] = certificate_json(result.certificate);
+  report["output"] = output_json(result.surface_report, facts.output);
+  report["output"]["dropped_components"] = result.dropped_components;
+  return report;
+}
+
+}  // namespace cellocut::tools

@@ -1,0 +1,28 @@
+// The JSON reports. Keys are stable from the first release on: add, never rename.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+#include "cellocut/pipeline.h"
+
+namespace cellocut::tools {
+
+struct RunFacts {
+  std::string input;
+  std::string output;
+  std::string backend;
+  std::string solver;
+  int threads = 1;
+  double read_seconds = 0;
+  double write_seconds = 0;
+};
+
+// `output` of a report: path, validity, counts, components.
+nlohmann::ordered_json output_json(const SurfaceReport& report, const std::string& path);
+
+// The report of a remesh.
+nlohmann::ordered_json remesh_json(const RemeshResult& result, const RemeshOptions& options,
+                                   const TriangleSoup& input, const RunFacts& facts);
+
+}  // namespace cellocut::tools

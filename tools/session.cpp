@@ -1,0 +1,114 @@
+#include "tools/session.h"
+
+#include <fmt/core.h>
+#include <sys/resource.h>
+#include <tbb/global_control.h>
+#include <tbb/info.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <csignal>
+#include <cstdio>
+
+#include "cellocut/base/atomic_file.h"
+
+namespace cellocut::tools {
+
+namespace {
+
+std::atomic<bool> interrupted{false};
+static_assert(std::atomic<bool>::is_always_lock_free);
+
+extern "C" void on_interrupt(int signal) {
+  if (interrupted.exchange(true)) {
+    AtomicFile::remove_all_temporaries();
+    _exit(signal == SIGINT ? 130 : 128 + signal);
+  }
+}
+
+constexpr int kStages = 9;  // of a remesh, for the bar
+
+}  // namespace
+
+void CommonOptions::add_to(CLI::App& command) {
+  command.add_option("--threads", threads, "Number of threads; the result does not depend on it")
+      ->check(CLI::Range(1, 1024))
+      ->default_str("all");
+  CLI::Option* quiet_flag = command.add_flag("--quiet", quiet, "No progress, no summary");
+  command.add_flag("--verbose", verbose, "A line on standard error for every stage")
+      ->excludes(quiet_flag);
+  command.add_option("--json", json, "Write a report to this file ('-': standard output)");
+}
+
+TerminalObserver::TerminalObserver(const CommonOptions& options)
+    : bar_(!options.quiet && !options.verbose && isatty(STDERR_FILENO) != 0),
+      lines_(options.verbose) {}
+
+TerminalObserver::~TerminalObserver() { clear(); }
+
+void TerminalObserver::stage(std::string_view name) {
+  if (lines_) fmt::print(stderr, "cellocut: {}\n", name);
+  if (!bar_) return;
+  constexpr int kWidth = 24;
+  const int filled = std::min(kWidth, kWidth * stages_ / kStages);
+  fmt::print(stderr, "\r\033[K[{:#<{}}{:.<{}}] {}", "", filled, "", kWidth - filled, name);
+  std::fflush(stderr);
+  ++stages_;
+  drawn_ = true;
+}
+
+void TerminalObserver::progress(double /*done*/) {}
+
+bool TerminalObserver::cancelled() const { return interrupted.load(std::memory_order_relaxed); }
+
+void TerminalObserver::clear() {
+  if (!drawn_) return;
+  fmt::print(stderr, "\r\033[K");
+  drawn_ = false;
+}
+
+struct ThreadLimit::Control {
+  tbb::global_control limit;
+};
+
+ThreadLimit::ThreadLimit(int threads)
+    : threads_(threads > 0 ? threads : tbb::info::default_concurrency()) {
+  control_ = std::unique_ptr<Control>(new Control{tbb::global_control(
+      tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads_))});
+}
+
+ThreadLimit::~ThreadLimit() = default;
+
+void install_signal_handlers() {
+  struct sigaction action {};
+  action.sa_handler = on_interrupt;
+  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
+  std::signal(SIGXFSZ, SIG_IGN);
+  std::signal(SIGPIPE, SIG_IGN);
+}
+
+long long peak_memory_bytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<long long>(usage.ru_maxrss) * 1024;
+}
+
+void require_writable(const std::vector<std::string>& paths) {
+  for (const std::string& path : paths) {
+    if (path.empty() || path == "-") continue;
+    try {
+      const AtomicFile probe(path);
+    } catch (const OutputError& error) {
+      throw UsageError(error.file() + ": " + error.what());
+    }
+  }
+}
+
+void write_text(const std::string& path, const std::string& text) {
+  AtomicFile file(path);
+  file.write(text);
+  file.commit();
+}
+
+}  // namespace cellocut::tools

@@ -1,0 +1,77 @@
+// What every subcommand shares: threads, verbosity, progress, interruption.
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "cellocut/base/observer.h"
+
+namespace CLI {
+class App;
+}
+
+namespace cellocut::tools {
+
+// Options that every subcommand takes.
+struct CommonOptions {
+  int threads = 0;  // 0: as many as the machine has
+  bool quiet = false;
+  bool verbose = false;
+  std::string json;  // where the report goes; empty: nowhere
+
+  void add_to(CLI::App& command);
+};
+
+// Progress on a terminal (a bar with the stage's name on standard error), stage names with --verbose, and
+// Ctrl-C as cancellation.
+class TerminalObserver : public Observer {
+ public:
+  explicit TerminalObserver(const CommonOptions& options);
+  ~TerminalObserver() override;
+  TerminalObserver(const TerminalObserver&) = delete;
+  TerminalObserver& operator=(const TerminalObserver&) = delete;
+
+  void stage(std::string_view name) override;
+  void progress(double done) override;
+  [[nodiscard]] bool cancelled() const override;
+  // Takes the bar away, so that other lines can be printed.
+  void clear();
+
+ private:
+  bool bar_;
+  bool lines_;
+  int stages_ = 0;
+  bool drawn_ = false;
+};
+
+// Limits the number of threads for as long as it lives.
+class ThreadLimit {
+ public:
+  explicit ThreadLimit(int threads);
+  ~ThreadLimit();
+  ThreadLimit(const ThreadLimit&) = delete;
+  ThreadLimit& operator=(const ThreadLimit&) = delete;
+  [[nodiscard]] int threads() const { return threads_; }
+
+ private:
+  struct Control;
+  std::unique_ptr<Control> control_;
+  int threads_;
+};
+
+// From here on the first Ctrl-C (or SIGTERM) asks for cancellation, the second ends the program at once
+// (temporary files are removed), and a file size limit is an error of a write instead of a signal.
+void install_signal_handlers();
+
+// Peak resident memory of this process so far.
+long long peak_memory_bytes();
+
+// Errors: UsageError where a file could not be created beside a path: before the work, not after it. Empty paths and "-" are fine.
+void require_writable(const std::vector<std::string>& paths);
+
+// Writes text through AtomicFile.
+void write_text(const std::string& path, const std::string& text);
+
+}  // namespace cellocut::tools

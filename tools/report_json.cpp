@@ -137,9 +137,8 @@ Json remesh_json(const RemeshResult& result, const RemeshOptions& options,
                      {"faces", result.proxy.mesh.triangles.size()},
                      {"removed_share", result.proxy.removed_share},
                      {"largest_distance_steps", result.proxy.largest_distance},
-                     {"points_added", result.proxy.points_added}};
-  report["field"] = {{"stored_values", result.phi.stored_values()},
-                     {"bytes", result.phi.bytes()}};
+                     {"faces_restored", result.proxy.faces_restored}};
+  report["field"] = {{"stored_values", result.phi.stored_values()}, {"bytes", result.phi.bytes()}};
   report["counts"] = {{"vertices", result.complex.points.size()},
                       {"cells", result.complex.cells.size()},
                       {"facets", result.facets.size()},

@@ -1,5 +1,5 @@
-// The simplified proxy S_sim: the surface phi = 0 with most of its faces removed. Its vertices become the
-// points of the Delaunay complex.
+// The simplified proxy S_sim: the surface phi = 0 with most of its faces removed. Its vertices
+// become the points of the Delaunay complex.
 #pragma once
 
 #include <vector>
@@ -16,18 +16,19 @@ inline constexpr double kProxyTolerance = 0.5;
 
 struct Proxy {
   // In input units, rounded once to the doubles that files will hold. Need not be manifold: where
-  // decimation went further than the tolerance, faces were split one by one.
+  // decimation went too far, a patch of the full surface stands in for the faces that were dropped.
   TriangleSoup mesh;
   std::int64_t faces_before = 0;
-  double removed_share = 0;    // 1 - faces / faces_before, as reached
-  double largest_distance = 0; // measured max of |phi| over the proxy, in grid steps
-  std::int64_t points_added = 0;  // by splitting faces that were too far away
+  double removed_share = 0;         // 1 - faces / faces_before, as reached
+  double largest_distance = 0;      // measured max of |phi| over the proxy, in grid steps
+  std::int64_t faces_restored = 0;  // of the full surface, around faces that were too far away
 };
 
 // Decimates `surface` (phi = 0 in index coordinates, from extract_iso_surface) by quadrics until
-// `removed_share` of its faces are gone, then measures |phi| over every face on a raster of half a grid
-// step and splits the faces that are further away than kProxyTolerance, at the worst place moved onto
-// phi = 0, until none is left: the distance wins over the share.
+// `removed_share` of its faces are gone, and measures |phi| over every face on a raster of half a
+// grid step. Faces further away than kProxyTolerance are dropped, and the full surface around them
+// is decimated again with a fifth of the error; what is still too far away then is taken from the
+// full surface as it is. So the distance wins over the share, and only where it has to.
 // Preconditions: removed_share in [0, 0.99]. Errors: Cancelled.
 Proxy make_proxy(const TriangleSoup& surface, const SparseField& phi, const Frame& frame,
                  double removed_share, Observer& observer);

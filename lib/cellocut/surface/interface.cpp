@@ -51,7 +51,8 @@ class Pairing {
     std::uint32_t cell = interface_[h / 3].cell;
     int entered_opposite = interface_[h / 3].corner;  // the facet that we stand at
     while (true) {
-      // The other facet of the cell at the edge (u, v) is opposite to the third corner of this facet.
+      // The other facet of the cell at the edge (u, v) is opposite to the third corner of this
+      // facet.
       int leave = 0;
       for (int k = 0; k < 4; ++k) {
         if (k != entered_opposite && complex_.cells[cell][k] != u && complex_.cells[cell][k] != v) {
@@ -103,12 +104,14 @@ class Pairing {
     }
   }
 
-  // One copy of a vertex for each group of corners that paired edges connect (union-find over corners).
+  // One copy of a vertex for each group of corners that paired edges connect (union-find over
+  // corners).
   void assign_copies() {
     group_.resize(mate_.size());
     std::iota(group_.begin(), group_.end(), 0U);
     for (std::uint32_t h = 0; h < mate_.size(); ++h) {
-      // The corner at from(h) and the corner of the mate at the same vertex, which is where it ends.
+      // The corner at from(h) and the corner of the mate at the same vertex, which is where it
+      // ends.
       unite(h, next(mate_[h]));
     }
   }
@@ -123,27 +126,29 @@ class Pairing {
     group_[std::max(a, b)] = std::min(a, b);
   }
 
-  // At each crowded edge, pairs that lie between the same two copies swap their mates. True if any did.
+  // At each crowded edge, two pairs that lie between the same two copies swap their mates. A swap
+  // makes the groups at its edge stale, so edges that touch one of them wait for the next round.
+  // True if any pairs were swapped.
   bool rejoin_coinciding_edges() {
-    bool changed = false;
+    std::vector<bool> stale(mate_.size(), false);
+    bool swapped = false;
     for (const std::vector<std::uint32_t>& edge : crowded_) {
       for (std::size_t i = 0; i < edge.size(); ++i) {
         for (std::size_t j = i + 1; j < edge.size(); ++j) {
           const std::uint32_t a = edge[i];
           const std::uint32_t b = edge[j];
-          if (find(a) != find(b) || find(next(a)) != find(next(b))) continue;
+          const std::uint32_t low = find(a);
+          const std::uint32_t high = find(next(a));
+          if (low != find(b) || high != find(next(b)) || stale[low] || stale[high]) continue;
+          stale[low] = stale[high] = true;
           std::swap(mate_[a], mate_[b]);
           mate_[mate_[a]] = a;
           mate_[mate_[b]] = b;
-          changed = true;
-          // The groups are stale from here on; one swap per edge and round.
-          i = edge.size();
-          break;
+          swapped = true;
         }
       }
-      if (changed) break;
     }
-    return changed;
+    return swapped;
   }
 
   TriangleSoup build() {

@@ -5,7 +5,6 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "cellocut/mesh/mesh_file.h"
 #include "cellocut/validity/surface_report.h"
 #include "cellocut_version.h"
 #include "tools/commands.h"
@@ -54,9 +53,7 @@ int run_check(const CheckArguments& a) {
   const ThreadLimit limit(a.common.threads);
   TerminalObserver observer(a.common);
   observer.stage("read");
-  std::optional<MeshFormat> format;
-  if (!a.format.empty()) format = format_of_name(a.format);
-  const TriangleSoup mesh = read_mesh(a.input, format);
+  const TriangleSoup mesh = read_input(a.input, a.format);
   observer.stage("validity");
   const SurfaceReport report = inspect_surface(mesh, SurfaceCheckOptions{.observer = &observer});
   observer.clear();
@@ -72,10 +69,10 @@ int run_check(const CheckArguments& a) {
 }  // namespace
 
 Command add_check(CLI::App& program) {
-  CLI::App* app = program.add_subcommand(
-      "check",
-      "Topology, orientation, self-intersection, components, Euler number, volume. Exit 0 where the "
-      "mesh bounds a solid, 4 where it does not");
+  CLI::App* app = program.add_subcommand("check",
+                                         "Topology, orientation, self-intersection, components, "
+                                         "Euler number, volume. Exit 0 where the "
+                                         "mesh bounds a solid, 4 where it does not");
   auto arguments = std::make_shared<CheckArguments>();
   app->add_option("mesh", arguments->input, "Mesh: .obj .off .ply .stl, or '-'")->required();
   app->add_option("--format", arguments->format, "Format of the mesh: obj, off, ply, stl");

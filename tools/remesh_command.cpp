@@ -56,13 +56,14 @@ void add_arguments(CLI::App& app, RemeshArguments& a) {
   app.add_option("-R,--resolution", a.options.resolution,
                  "Grid steps along the longest edge of the box, 8 to 16384")
       ->capture_default_str();
-  auto* epsilon = app.add_option("--epsilon", a.options.epsilon,
-                                 "Thickening offset relative to the longest edge (default: max(1/512, "
-                                 "1/resolution))");
-  app.add_option("--epsilon-abs", a.options.epsilon_absolute,
-                 "Thickening offset in input units")
+  auto* epsilon =
+      app.add_option("--epsilon", a.options.epsilon,
+                     "Thickening offset relative to the longest edge (default: max(1/512, "
+                     "1/resolution))");
+  app.add_option("--epsilon-abs", a.options.epsilon_absolute, "Thickening offset in input units")
       ->excludes(epsilon);
-  app.add_option("--decimate", a.options.decimate, "Share of the proxy's faces to remove, 0 to 0.99")
+  app.add_option("--decimate", a.options.decimate,
+                 "Share of the proxy's faces to remove, 0 to 0.99")
       ->capture_default_str();
   app.add_option("--lambda-fill", a.lambda,
                  "Weight of an unsupported interface: a number or p/q, terms up to 2^20")
@@ -78,8 +79,9 @@ void add_arguments(CLI::App& app, RemeshArguments& a) {
   app.add_option("--cut", a.cut, "Which of the minimum cuts: the smallest or the largest interior")
       ->check(CLI::IsMember({"smallest", "largest"}))
       ->capture_default_str();
-  app.add_option("--surface", a.surface,
-                 "sdf: signed distance of the interface, marching cubes; cells: the interface itself")
+  app.add_option(
+         "--surface", a.surface,
+         "sdf: signed distance of the interface, marching cubes; cells: the interface itself")
       ->check(CLI::IsMember({"sdf", "cells"}))
       ->capture_default_str();
   app.add_option("--min-component", a.options.min_component,
@@ -96,21 +98,20 @@ void add_arguments(CLI::App& app, RemeshArguments& a) {
   a.common.add_to(app);
 }
 
-std::optional<MeshFormat> named_format(const std::string& name) {
-  if (name.empty()) return {};
-  return format_of_name(name);
-}
-
 void complete_options(RemeshArguments& a) {
-  a.options.lambda_fill = parse_rational(a.lambda);
+  try {
+    a.options.lambda_fill = parse_rational(a.lambda);
+  } catch (const UsageError& error) {
+    throw UsageError(std::string("--lambda-fill: ") + error.what());
+  }
   a.options.exterior =
       a.exterior == "unbounded" ? ExteriorMode::unbounded : ExteriorMode::hull_cells;
   a.options.cut = a.cut == "largest" ? CutChoice::largest : CutChoice::smallest;
   a.options.surface = a.surface == "sdf" ? SurfaceMode::sdf : SurfaceMode::cells;
   a.options.thickening = !a.no_thickening;
   a.options.unary = !a.no_unary;
-  std::optional<MeshFormat> format = named_format(a.output_format);
-  if (!format) format = format_of_path(a.output);
+  const std::optional<MeshFormat> format =
+      a.output_format.empty() ? format_of_path(a.output) : format_of_name(a.output_format);
   if (!format) {
     throw UsageError(a.output +
                      ": the output's format is not told by its name; use .obj, .off, .ply or .stl, "
@@ -118,9 +119,6 @@ void complete_options(RemeshArguments& a) {
   }
   a.options.output_format = *format;
   a.options.validate();
-  const int to_standard_output =
-      (a.output == "-" ? 1 : 0) + (a.vtu == "-" ? 1 : 0) + (a.common.json == "-" ? 1 : 0);
-  if (to_standard_output > 1) throw UsageError("only one output can be standard output");
   require_writable({a.output, a.vtu, a.common.json, a.keep_invalid});
 }
 
@@ -139,9 +137,8 @@ void print_summary(const RemeshResult& result, const RemeshArguments& a, double 
   fmt::print("cells {}, facets {}, nodes {}, edges {}\n", result.complex.cells.size(),
              result.facets.size(), result.graph.problem.node_count(),
              result.graph.problem.edges.size());
-  fmt::print("cut value {} ({}), certificate {}\n", result.cut.value,
-             to_string(result.cut.status), result.certificate.valid ? "valid" : "FAILED");
-  if (result.surface.empty()) return;
+  fmt::print("cut value {} ({}), certificate {}\n", result.cut.value, to_string(result.cut.status),
+             result.certificate.valid ? "valid" : "FAILED");
   const SurfaceReport& report = result.surface_report;
   fmt::print("surface: {} triangles, {} component{}, volume {:.6g}, {}\n", report.triangles,
              report.components.size(), report.components.size() == 1 ? "" : "s", report.volume,
@@ -162,33 +159,39 @@ std::string describe_defects(const SurfaceReport& report) {
   return text.empty() ? "no faces" : text;
 }
 
-// Says in one line what is wrong, if anything; the exit code.
-int judge(const RemeshResult& result, const RemeshArguments& a) {
+// The exit code, and in one line what is wrong, if anything.
+struct Verdict {
+  ExitCode code = kDone;
+  std::string problem;
+};
+
+Verdict judge(const RemeshResult& result, const RemeshArguments& a) {
+  if (result.proxy.mesh.empty()) {  // phi is nowhere negative: there was nothing to cut
+    return {kNoGuarantee, a.input + ": no cell is interior, there is no solid to write"};
+  }
   if (result.cut.status == CutStatus::invalid) {
-    print_error(a.input + ": solver '" + a.solver + "': " + result.cut.message);
-    return kCertificateFailed;
+    return {kCertificateFailed, a.input + ": solver '" + a.solver + "': " + result.cut.message};
   }
   if (!result.certificate.valid) {
     std::string first;
     for (const CertificateCheck& check : result.certificate.checks) {
       if (!check.passed && first.empty()) first = check.name + ": " + check.detail;
     }
-    print_error(a.input + ": the certificate of the cut failed: " + first);
-    return kCertificateFailed;
+    return {kCertificateFailed, a.input + ": the certificate of the cut failed: " + first};
   }
   if (result.empty_solid()) {
-    print_error(a.input + ": no cell is interior, there is no solid to write");
-    return kNoGuarantee;
+    return {kNoGuarantee, a.input + ": no cell is interior, there is no solid to write"};
   }
   if (!result.surface_report.valid()) {
     const bool stl = a.options.output_format == MeshFormat::stl ||
                      a.options.output_format == MeshFormat::stl_ascii;
-    print_error(a.output + ": not written, the surface would not be valid (" +
-                describe_defects(result.surface_report) + ")" +
-                (stl ? "; STL merges equal points and binary STL rounds them: use OBJ or PLY" : ""));
-    return kNoGuarantee;
+    return {
+        kNoGuarantee,
+        a.output + ": not written, the surface would not be valid (" +
+            describe_defects(result.surface_report) + ")" +
+            (stl ? "; STL merges equal points and binary STL rounds them: use OBJ or PLY" : "")};
   }
-  return kDone;
+  return {};
 }
 
 int run_remesh(RemeshArguments& a) {
@@ -200,7 +203,7 @@ int run_remesh(RemeshArguments& a) {
 
   Stopwatch stopwatch;
   observer.stage("read");
-  const TriangleSoup input = read_mesh(a.input, named_format(a.input_format));
+  const TriangleSoup input = read_input(a.input, a.input_format);
   const double read_seconds = stopwatch.seconds();
 
   const RemeshResult result = remesh(input, a.options, *tetrahedralizer, *solver, observer);
@@ -208,7 +211,7 @@ int run_remesh(RemeshArguments& a) {
   stopwatch.restart();
   observer.check();
   observer.stage("write");
-  const int code = judge(result, a);
+  const auto [code, problem] = judge(result, a);
 #ifdef CELLOCUT_WITH_VIZ
   if (!a.vtu.empty()) write_text(a.vtu, encode_vtu(labelled_cells(result, a.options, a.solver)));
 #endif
@@ -220,15 +223,25 @@ int run_remesh(RemeshArguments& a) {
   const double write_seconds = stopwatch.seconds();
   observer.clear();
   if (!a.common.json.empty()) {
-    const RunFacts facts{a.input,          code == kDone ? a.output : "", a.backend, a.solver,
-                         limit.threads(), read_seconds,                  write_seconds};
+    const RunFacts facts{a.input,         code == kDone ? a.output : "",
+                         a.backend,       a.solver,
+                         limit.threads(), read_seconds,
+                         write_seconds};
     write_text(a.common.json, remesh_json(result, a.options, input, facts).dump(2) + "\n");
+  }
+  if (code != kDone) {
+    print_error(problem);
+    return code;
+  }
+  if (input.skipped_polygons > 0 && !a.common.quiet) {
+    print_error(fmt::format("{}: warning: left out {} faces of fewer than three corners", a.input,
+                            input.skipped_polygons));
   }
   if (result.derived.epsilon_below_step && !a.common.quiet) {
     print_error("warning: epsilon is below one grid step, thin parts may perforate");
   }
   print_summary(result, a, read_seconds, write_seconds);
-  return code;
+  return kDone;
 }
 
 }  // namespace

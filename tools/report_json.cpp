@@ -129,7 +129,8 @@ Json remesh_json(const RemeshResult& result, const RemeshOptions& options,
   report["version"] = kCellocutVersion;
   report["input"] = {{"path", facts.input},
                      {"points", input.points.size()},
-                     {"triangles", input.triangles.size()}};
+                     {"triangles", input.triangles.size()},
+                     {"skipped_polygons", input.skipped_polygons}};
   report["parameters"] = parameters_json(result, options);
   report["stages"] = stages_json(result, facts);
   report["peak_memory_bytes"] = peak_memory_bytes();

@@ -2,8 +2,9 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <memory>
+#include <nlohmann/json.hpp>
 
-#include "cellocut/mesh/mesh_file.h"
+#include "cellocut_version.h"
 #include "tools/commands.h"
 #include "tools/exit_code.h"
 #include "tools/session.h"
@@ -48,6 +49,7 @@ void extend(Box3& box, const Point3& p, bool first) {
 int run_section(const SectionArguments& a) {
   for (const std::string& path : a.outputs) picture_format(path);
   require_writable(a.outputs);
+  require_writable({a.common.json});
   const ThreadLimit limit(a.common.threads);
   viz::LabelledCells cells;
   std::vector<TriangleSoup> meshes;
@@ -57,7 +59,7 @@ int run_section(const SectionArguments& a) {
       if (!cells.cells.empty()) throw UsageError("only one .vtu can be drawn");
       cells = viz::read_vtu(path);
     } else {
-      meshes.push_back(read_mesh(path));
+      meshes.push_back(read_input(path));
       names.push_back(path.substr(path.find_last_of('/') + 1));
     }
   }
@@ -82,6 +84,14 @@ int run_section(const SectionArguments& a) {
   const viz::Plane plane = viz::parse_plane(a.plane, box);
   for (const std::string& path : a.outputs) {
     write_text(path, viz::draw_section(layers, plane, style, picture_format(path)));
+  }
+  if (!a.common.json.empty()) {
+    const nlohmann::ordered_json report{
+        {"version", kCellocutVersion},
+        {"inputs", a.inputs},
+        {"plane", {{"normal", plane.normal}, {"offset", plane.offset}}},
+        {"outputs", a.outputs}};
+    write_text(a.common.json, report.dump(2) + "\n");
   }
   return kDone;
 }

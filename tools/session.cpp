@@ -9,8 +9,12 @@
 #include <CLI/CLI.hpp>
 #include <csignal>
 #include <cstdio>
+#include <filesystem>
+#include <optional>
+#include <system_error>
 
 #include "cellocut/base/atomic_file.h"
+#include "cellocut/base/errors.h"
 
 namespace cellocut::tools {
 
@@ -95,6 +99,13 @@ long long peak_memory_bytes() {
 }
 
 void require_writable(const std::vector<std::string>& paths) {
+  for (std::size_t i = 0; i < paths.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      if (!paths[i].empty() && paths[i] == paths[j]) {
+        throw UsageError(paths[i] + ": two outputs cannot be the same file");
+      }
+    }
+  }
   for (const std::string& path : paths) {
     if (path.empty() || path == "-") continue;
     try {
@@ -103,6 +114,14 @@ void require_writable(const std::vector<std::string>& paths) {
       throw UsageError(error.file() + ": " + error.what());
     }
   }
+}
+
+TriangleSoup read_input(const std::string& path, const std::string& format) {
+  std::error_code unknown;
+  if (std::filesystem::is_directory(path, unknown)) throw InputError("is a directory", path);
+  std::optional<MeshFormat> named;
+  if (!format.empty()) named = format_of_name(format);
+  return read_mesh(path, named);
 }
 
 void write_text(const std::string& path, const std::string& text) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cellocut/base/observer.h"
+#include "cellocut/mesh/mesh_file.h"
 
 namespace CLI {
 class App;
@@ -24,8 +25,8 @@ struct CommonOptions {
   void add_to(CLI::App& command);
 };
 
-// Progress on a terminal (a bar with the stage's name on standard error), stage names with --verbose, and
-// Ctrl-C as cancellation.
+// Progress on a terminal (a bar with the stage's name on standard error), stage names with
+// --verbose, and Ctrl-C as cancellation.
 class TerminalObserver : public Observer {
  public:
   explicit TerminalObserver(const CommonOptions& options);
@@ -61,15 +62,21 @@ class ThreadLimit {
   int threads_;
 };
 
-// From here on the first Ctrl-C (or SIGTERM) asks for cancellation, the second ends the program at once
-// (temporary files are removed), and a file size limit is an error of a write instead of a signal.
+// From here on the first Ctrl-C (or SIGTERM) asks for cancellation, the second ends the program at
+// once (temporary files are removed), and a file size limit is an error of a write instead of a
+// signal.
 void install_signal_handlers();
 
 // Peak resident memory of this process so far.
 long long peak_memory_bytes();
 
-// Errors: UsageError where a file could not be created beside a path: before the work, not after it. Empty paths and "-" are fine.
+// Errors: UsageError where a file could not be created beside a path: before the work, not after
+// it. Empty paths and "-" are fine.
 void require_writable(const std::vector<std::string>& paths);
+
+// read_mesh() for a path of the command line; `format` is empty where its name tells it.
+// Errors: as read_mesh(); InputError for a directory, whatever its name.
+TriangleSoup read_input(const std::string& path, const std::string& format = {});
 
 // Writes text through AtomicFile.
 void write_text(const std::string& path, const std::string& text);

@@ -10,6 +10,8 @@ namespace cellocut {
 
 namespace {
 
+constexpr int kLargestResolution = 16384;
+
 std::string short_decimal(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%.6g", value);
@@ -23,7 +25,8 @@ void require(bool holds, const char* what) {
 }  // namespace
 
 void RemeshOptions::validate() const {
-  require(resolution >= 8 && resolution <= 16384, "--resolution must be between 8 and 16384");
+  require(resolution >= 8 && resolution <= kLargestResolution,
+          "--resolution must be between 8 and 16384");
   require(!(epsilon && epsilon_absolute), "give --epsilon or --epsilon-abs, not both");
   require(!epsilon || (*epsilon > 0 && *epsilon <= 1), "--epsilon must be above 0 and at most 1");
   require(!epsilon_absolute || (*epsilon_absolute > 0 && std::isfinite(*epsilon_absolute)),
@@ -39,6 +42,10 @@ DerivedParameters derive_parameters(const TriangleSoup& input, const RemeshOptio
   if (!(unit > 0) || !std::isfinite(unit)) {
     throw InputError("the mesh has no extent: all its points are the same, or too far apart");
   }
+  if (unit < 1e-100 || unit > 1e100) {
+    throw InputError("the mesh is " + short_decimal(unit) +
+                     " long, and squared lengths would leave the range of a double; scale it");
+  }
   DerivedParameters derived;
   const double step = 1.0 / options.resolution;
   derived.epsilon = options.epsilon            ? *options.epsilon
@@ -47,10 +54,14 @@ DerivedParameters derive_parameters(const TriangleSoup& input, const RemeshOptio
   require(derived.epsilon <= 1, "--epsilon-abs must be at most the longest edge of the box");
   if (!options.thickening) derived.epsilon = 0;
   if (options.thickening && 2 * derived.epsilon < step) {
+    const double usable = std::ceil(0.5 / derived.epsilon);
+    const std::string finer =
+        usable <= kLargestResolution
+            ? "--resolution " + std::to_string(static_cast<int>(usable)) + " or more, or "
+            : std::string();
     throw UsageError("epsilon " + short_decimal(derived.epsilon) +
-                     " is below half a grid step, so that sheets perforate; use --resolution " +
-                     std::to_string(static_cast<long>(std::ceil(0.5 / derived.epsilon))) +
-                     " or more, or --epsilon " + short_decimal(0.5 * step) + " or more");
+                     " is below half a grid step, so that sheets perforate; use " + finer +
+                     "--epsilon " + short_decimal(0.5 * step) + " or more");
   }
   derived.epsilon_steps = derived.epsilon * options.resolution;
   derived.epsilon_below_step = options.thickening && derived.epsilon < step;

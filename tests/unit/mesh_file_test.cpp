@@ -76,6 +76,12 @@ TEST(ReadObj, EverythingIsKept) {
             (std::vector<Triangle>{{0, 1, 2}, {1, 2, 0}, {2, 1, 0}, {0, 0, 1}, {2, 2, 2}}));
 }
 
+TEST(ReadObj, LooseEdgesAreCounted) {
+  const TriangleSoup soup = read_text("a.obj", kFourVertices + "f 1 2\nf 1 2 3\nf 4\nf\n");
+  EXPECT_EQ(soup.triangles, (std::vector<Triangle>{{0, 1, 2}}));
+  EXPECT_EQ(soup.skipped_polygons, 3u);
+}
+
 TEST(ReadObj, CorrectlyRoundedDoubles) {
   // Decimal fractions next to the middle between two doubles, and the ends of the range.
   const TriangleSoup soup =
@@ -193,8 +199,8 @@ TEST(ReadStl, BinaryWithAnyHeader) {
        {std::string(80, ' '), "solid of facets" + std::string(65, ' '), std::string(80, '\0')}) {
     std::string bytes = header;
     append(bytes, std::uint32_t{2}, std::endian::little);
-    for (int i = 0; i < 2; ++i) {
-      for (const float x : {0.F, 0.F, 1.F, 0.F, 0.F, 0.F, 1.F, 0.F, 0.F, 0.1F, i + 1.F, 0.F}) {
+    for (const float height : {1.F, 2.F}) {
+      for (const float x : {0.F, 0.F, 1.F, 0.F, 0.F, 0.F, 1.F, 0.F, 0.F, 0.1F, height, 0.F}) {
         append(bytes, x, std::endian::little);
       }
       append(bytes, std::uint16_t{0xFFFF}, std::endian::little);

@@ -100,7 +100,7 @@ TEST_P(MeshRoundTrip, WriteMesh) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Formats, MeshRoundTrip, ::testing::ValuesIn(kFormats),
-                         [](const auto& info) { return std::string(info.param.first); });
+                         [](const auto& format) { return std::string(format.param.first); });
 
 TEST(AsReadBack, StlMergesEqualPoints) {
   TriangleSoup mesh;

@@ -16,7 +16,8 @@ struct Variant {
   std::string not_built;                 // why not; empty where it is built
 };
 
-// Makes the variant of that name. Errors: UsageError that lists what is built; never a silent fallback.
+// Makes the variant of that name. Errors: UsageError that lists what is built; never a silent
+// fallback.
 template <class Interface>
 std::unique_ptr<Interface> make_variant(const std::vector<Variant<Interface>>& table,
                                         const std::string& kind, const std::string& name) {
@@ -26,7 +27,9 @@ std::unique_ptr<Interface> make_variant(const std::vector<Variant<Interface>>& t
     if (variant.name == name) {
       throw UsageError(kind + " '" + name + "' is not built: " + variant.not_built);
     }
-    if (variant.make != nullptr) built += (built.empty() ? "" : ", ") + variant.name;
+    if (variant.make == nullptr) continue;
+    if (!built.empty()) built += ", ";
+    built += variant.name;
   }
   throw UsageError("unknown " + kind + " '" + name + "'; built: " + built);
 }

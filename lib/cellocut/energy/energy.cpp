@@ -101,6 +101,7 @@ FacetAreas quantise_areas(const TetComplex& complex, const FacetList& facets, do
   });
   double total = 0;
   for (const double a : area) total += a;
+  if (!std::isfinite(total)) throw LimitError("the facet areas exceed the range of a double");
 
   const auto sum_at = [&](double scale) {
     Wide sum = 0;

@@ -17,10 +17,19 @@ constexpr double kSlack = 1e-7;
 
 using Candidates = std::vector<std::uint32_t>;
 
+// Holds a triangle.
+struct Ball {
+  Point3 centre;
+  double radius;
+};
+
 class Descent {
  public:
   Descent(const std::vector<DistanceTriangle>& triangles, double offset, Observer& observer)
-      : triangles_(triangles), offset_(offset), observer_(observer) {}
+      : triangles_(triangles), offset_(offset), observer_(observer) {
+    balls_.reserve(triangles.size());
+    for (const DistanceTriangle& t : triangles) balls_.push_back({t.centre(), t.radius()});
+  }
 
   void run(int extent) {
     int edge = kLeafEdge;
@@ -43,35 +52,47 @@ class Descent {
  private:
   enum class Place { band, inside, outside };
 
-  // Whether the band reaches the grid points low .. low + edge - 1, and if so which of the candidates can
-  // be closest to one of them.
+  // Whether the band reaches the grid points low .. low + edge - 1, and if so which of the
+  // candidates can be closest to one of them. Balls around the triangles decide most; distances are
+  // taken for the first bound and for triangles that are large against the node.
   Place narrow(const openvdb::Coord& low, int edge, const Candidates& candidates,
                Candidates& narrowed) const {
     const double half = 0.5 * (edge - 1);
     const Point3 centre{low.x() + half, low.y() + half, low.z() + half};
     const double radius = std::sqrt(3.0) * half;
-    // Lower bounds first (the triangles' balls), distances only where they can matter.
-    double closest = std::numeric_limits<double>::infinity();
-    narrowed.clear();
-    std::vector<double>& distances = scratch_.local();
-    distances.clear();
+
+    double nearest = std::numeric_limits<double>::infinity();
+    std::uint32_t seed = candidates.front();
     for (const std::uint32_t t : candidates) {
-      const DistanceTriangle& triangle = triangles_[t];
-      const double ball = norm(centre - triangle.centre()) - triangle.radius();
-      if (ball > closest + 2 * radius + kSlack) continue;
-      const double distance = std::sqrt(triangle.squared_distance(centre));
-      if (distance > closest + 2 * radius + kSlack) continue;
-      closest = std::fmin(closest, distance);
+      const double squared = squared_norm(centre - balls_[t].centre);
+      if (squared < nearest) {
+        nearest = squared;
+        seed = t;
+      }
+    }
+    // Bounds of the distance from the centre: it lies in [lower, closest].
+    double closest = std::sqrt(triangles_[seed].squared_distance(centre));
+    double lower = closest;
+    narrowed.clear();
+    for (const std::uint32_t t : candidates) {
+      // No point of the node is further from the triangles than closest + radius.
+      const double reach = closest + radius + balls_[t].radius + kSlack;
+      const Point3 offset = balls_[t].centre - centre;
+      const Point3 beyond{std::max(std::abs(offset[0]) - half, 0.0),
+                          std::max(std::abs(offset[1]) - half, 0.0),
+                          std::max(std::abs(offset[2]) - half, 0.0)};
+      if (squared_norm(beyond) > reach * reach) continue;
+      double bound = norm(offset) - balls_[t].radius;
+      if (balls_[t].radius > 0.25 * radius) {
+        bound = std::sqrt(triangles_[t].squared_distance(centre));
+        if (bound > closest + 2 * radius + kSlack) continue;
+        closest = std::min(closest, bound);
+      }
+      lower = std::min(lower, bound);
       narrowed.push_back(t);
-      distances.push_back(distance);
     }
-    if (closest - offset_ > radius + kBand + kSlack) return Place::outside;
+    if (lower - offset_ > radius + kBand + kSlack) return Place::outside;
     if (closest - offset_ < -(radius + kBand + kSlack)) return Place::inside;
-    std::size_t kept = 0;
-    for (std::size_t i = 0; i < narrowed.size(); ++i) {
-      if (distances[i] <= closest + 2 * radius + kSlack) narrowed[kept++] = narrowed[i];
-    }
-    narrowed.resize(kept);
     return Place::band;
   }
 
@@ -145,11 +166,27 @@ class Descent {
           const openvdb::Coord at = low.offsetBy(x, y, z);
           const Point3 p{static_cast<double>(at.x()), static_cast<double>(at.y()),
                          static_cast<double>(at.z())};
-          double squared = std::numeric_limits<double>::infinity();
+          double nearest = std::numeric_limits<double>::infinity();
+          std::uint32_t winner = candidates.front();
           for (const std::uint32_t t : candidates) {
-            squared = std::fmin(squared, triangles_[t].squared_distance(p));
+            const double to_centre = squared_norm(p - balls_[t].centre);
+            if (to_centre < nearest) {
+              nearest = to_centre;
+              winner = t;
+            }
           }
-          const float phi = static_cast<float>(std::sqrt(squared) - offset_);
+          double squared = triangles_[winner].squared_distance(p);
+          double distance = std::sqrt(squared);
+          for (const std::uint32_t t : candidates) {
+            const double reach = distance + balls_[t].radius + kSlack;
+            if (t == winner || squared_norm(p - balls_[t].centre) > reach * reach) continue;
+            const double candidate = triangles_[t].squared_distance(p);
+            if (candidate < squared) {
+              squared = candidate;
+              distance = std::sqrt(squared);
+            }
+          }
+          const float phi = static_cast<float>(distance - offset_);
           if (std::fabs(phi) < kBand) {
             leaf.setValueOn(at, phi);
           } else if (phi < 0) {
@@ -161,10 +198,10 @@ class Descent {
   }
 
   const std::vector<DistanceTriangle>& triangles_;
+  std::vector<Ball> balls_;  // one per triangle
   double offset_;
   Observer& observer_;
   tbb::enumerable_thread_specific<Band> parts_;  // one per thread
-  mutable tbb::enumerable_thread_specific<std::vector<double>> scratch_;
 };
 
 }  // namespace

@@ -20,6 +20,7 @@ class Flood {
  public:
   Flood(const Band& band, const TriangleSoup& mesh, const Frame& frame)
       : band_(band),
+        extent_(frame.extent),
         crossings_{LineCrossings(mesh, frame, 0), LineCrossings(mesh, frame, 1),
                    LineCrossings(mesh, frame, 2)} {
     for (std::uint32_t n = 0; n < band.leaves.size(); ++n) {
@@ -81,8 +82,10 @@ class Flood {
           const std::uint32_t node = node_at(before);
           if (is_tile(node)) unite(n * kLeafPoints + offset, node);
         }
-        if (crossings_[axis].crossed(at[axis], at[axis] + 1, at[(axis + 1) % 3],
-                                     at[(axis + 2) % 3])) {
+        // Leaves reach past the extent, where no line is named and no face is.
+        const int j = at[(axis + 1) % 3];
+        const int k = at[(axis + 2) % 3];
+        if (j < extent_ && k < extent_ && crossings_[axis].crossed(at[axis], at[axis] + 1, j, k)) {
           continue;
         }
         openvdb::Coord beyond = at;
@@ -94,8 +97,9 @@ class Flood {
     }
   }
 
-  // A tile and what begins or ends at the middle of its sides, if that is as large or larger; smaller
-  // neighbours join from their own side. No face comes near a tile, so nothing is in the way.
+  // A tile and what begins or ends at the middle of its sides, if that is as large or larger;
+  // smaller neighbours join from their own side. No face comes near a tile, so nothing is in the
+  // way.
   void join_tile(const Tile& tile) {
     const std::uint32_t here = node_at(tile.low);
     for (int axis = 0; axis < 3; ++axis) {
@@ -118,6 +122,7 @@ class Flood {
   }
 
   const Band& band_;
+  int extent_;
   std::array<LineCrossings, 3> crossings_;
   std::unordered_map<std::uint64_t, std::uint32_t> block_;  // leaves, then outside tiles
   int largest_ = 0;

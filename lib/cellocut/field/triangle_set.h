@@ -1,7 +1,8 @@
-// Triangles prepared for distance queries, in index coordinates and in an order that does not depend on
-// the order in which the input lists faces or corners.
+// Triangles prepared for distance queries, in index coordinates and in an order that does not
+// depend on the order in which the input lists faces or corners.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <vector>
@@ -16,8 +17,8 @@ class DistanceTriangle {
  public:
   DistanceTriangle(const Point3& a, const Point3& b, const Point3& c);
 
-  // Squared distance from p. Exact up to rounding for degenerate triangles too: where the triangle has
-  // no interior above or below p, the closest point lies on one of the three edges.
+  // Squared distance from p. Exact up to rounding for degenerate triangles too: where the triangle
+  // has no interior above or below p, the closest point lies on one of the three edges.
   [[nodiscard]] double squared_distance(const Point3& p) const {
     if (has_interior_) {
       const Point3 pa = p - corner_[0];
@@ -28,8 +29,8 @@ class DistanceTriangle {
         return height * height;
       }
     }
-    return std::fmin(squared_distance_to_edge(p, 0),
-                     std::fmin(squared_distance_to_edge(p, 1), squared_distance_to_edge(p, 2)));
+    return std::min({squared_distance_to_edge(p, 0), squared_distance_to_edge(p, 1),
+                     squared_distance_to_edge(p, 2)});
   }
 
   // A ball that holds the triangle.
@@ -39,7 +40,7 @@ class DistanceTriangle {
  private:
   [[nodiscard]] double squared_distance_to_edge(const Point3& p, int k) const {
     const Point3 d = p - corner_[k];
-    const double t = std::fmin(1.0, std::fmax(0.0, dot(d, edge_[k]) * inverse_squared_length_[k]));
+    const double t = std::clamp(dot(d, edge_[k]) * inverse_squared_length_[k], 0.0, 1.0);
     return squared_norm(d - t * edge_[k]);
   }
 
@@ -55,11 +56,11 @@ class DistanceTriangle {
 
 struct TriangleSet {
   std::vector<DistanceTriangle> triangles;  // de-duplicated, canonical order
-  std::vector<std::uint32_t> source;        // source[i]: lowest face index of the mesh that it stands for
+  std::vector<std::uint32_t> source;  // source[i]: lowest face index of the mesh that it stands for
 };
 
-// Corners sorted lexicographically, triangles sorted and de-duplicated by coordinates: the same set for
-// another face order, another corner order and flipped faces. O(n log n).
+// Corners sorted lexicographically, triangles sorted and de-duplicated by coordinates: the same set
+// for another face order, another corner order and flipped faces. O(n log n).
 TriangleSet make_triangle_set(const TriangleSoup& mesh, const Frame& frame);
 
 }  // namespace cellocut

@@ -129,6 +129,13 @@ std::string encode_stl_ascii(const TriangleSoup& mesh) {
   return bytes + "endsolid\n";
 }
 
+// Volatile, because g++ 12.2 wrongly drops a conversion to float and back where it vectorizes two
+// of them (already at -O2).
+double rounded_to_float(double x) {
+  const volatile float rounded = static_cast<float>(x);
+  return rounded;
+}
+
 }  // namespace
 
 std::string encode_mesh(const TriangleSoup& mesh, MeshFormat format) {
@@ -159,7 +166,7 @@ TriangleSoup as_read_back(const TriangleSoup& mesh, MeshFormat format) {
     for (int k = 0; k < 3; ++k) {
       Point3 point = mesh.points[triangle[k]];
       if (format == MeshFormat::stl) {
-        for (double& x : point) x = static_cast<float>(x);
+        for (double& x : point) x = rounded_to_float(x);
       }
       merged[k] = merger.index_of(point, seen.points);
     }

@@ -21,7 +21,8 @@ MeshFormat format_of_name(std::string_view name);
 // Reads a mesh; `path` "-" is standard input, which needs `format`. For reading, ply and ply_ascii
 // are the same, and so are stl and stl_ascii: the file says which it is. Polygons are triangulated
 // (a fan where convex, a constrained triangulation of the projected polygon otherwise). STL corners
-// with equal coordinates become one point.
+// with equal coordinates become one point. OBJ faces of one or two corners (loose edges, as some
+// exporters write them) are counted in skipped_polygons and left out.
 //
 // Errors: UsageError where the format cannot be told; InputError with the path and what is wrong:
 // not there, a directory, empty, truncated, malformed (with the line where there are lines), a

@@ -61,10 +61,10 @@ TriangleSoup read_obj(std::string_view bytes) {
       corners.clear();
       while (!line.at_end()) corners.push_back(vertex_index(line, builder.point_count()));
       if (corners.size() < 3) {
-        line.fail("a face with " + std::to_string(corners.size()) +
-                  " corners, at least 3 are needed");
+        builder.skip_polygon();  // exporters write loose edges so; it bounds nothing
+      } else {
+        builder.add_face(corners, line_number);
       }
-      builder.add_face(corners, line_number);
     } else if (keyword.find('\0') != std::string_view::npos) {
       line.fail("binary data, this is not an OBJ file");
     }

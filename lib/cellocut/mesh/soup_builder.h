@@ -23,6 +23,9 @@ class SoupBuilder {
   // an error that finish() may find. Precondition: at least three corners.
   void add_face(std::span<const std::uint32_t> corners, std::size_t place);
 
+  // A polygon of fewer than three corners, which is counted and left out.
+  void skip_polygon() { ++soup_.skipped_polygons; }
+
   [[nodiscard]] std::size_t point_count() const { return soup_.points.size(); }
   // For readers that merge points.
   std::vector<Point3>& points() { return soup_.points; }

@@ -16,6 +16,7 @@ using Triangle = std::array<std::uint32_t, 3>;
 struct TriangleSoup {
   std::vector<Point3> points;
   std::vector<Triangle> triangles;
+  std::size_t skipped_polygons = 0;  // of the file: fewer than three corners, so no face
 
   [[nodiscard]] std::size_t triangle_count() const { return triangles.size(); }
   [[nodiscard]] bool empty() const { return triangles.empty(); }

@@ -115,8 +115,12 @@ bool constrained(const std::vector<Point2>& polygon, std::span<const std::uint32
     const auto from = vertices[i];
     const auto to = vertices[(i + 1) % n];
     if (from == to) return false;
-    triangulation.insert_constraint(from, to);
-    ++passes[{from->info(), to->info()}];
+    const Edge edge{from->info(), to->info()};
+    // A bridge comes twice, once each way; to CGAL the second constraint would cross the first.
+    if (!passes.contains(edge) && !passes.contains({edge.second, edge.first})) {
+      triangulation.insert_constraint(from, to);
+    }
+    ++passes[edge];
   }
   for (std::size_t i = 0; i < n; ++i) {
     if (!triangulation.is_edge(vertices[i], vertices[(i + 1) % n])) return false;

@@ -1,0 +1,191 @@
+// The sweep over real defective meshes: every mesh, both backends, all exact solvers on the same
+// instance.
+//
+//   cellocut_sweep FOLDER [--resolution 256] [--only NAME[,NAME...]] [--surface sdf|cells]
+//
+// Prints a table and `N passed, N failed`; exit 1 where a mesh fails. A mesh passes where, on every
+// backend, all exact solvers give the same value and bit for bit the same canonical labellings, the
+// certificate of each holds, and the surface is valid with a positive volume.
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <iterator>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "backends/backends.h"
+#include "cellocut/base/stopwatch.h"
+#include "cellocut/mesh/mesh_file.h"
+#include "cellocut/pipeline.h"
+#include "solvers/solvers.h"
+
+namespace {
+
+using namespace cellocut;
+
+struct Arguments {
+  std::string folder;
+  std::string only;
+  RemeshOptions options;
+};
+
+Arguments parse(int argc, char** argv) {
+  Arguments a;
+  a.options.resolution = 256;
+  for (int i = 1; i < argc; ++i) {
+    const std::string word = argv[i];
+    const bool has_value = i + 1 < argc;
+    if (word == "--resolution" && has_value) {
+      a.options.resolution = std::stoi(argv[++i]);
+    } else if (word == "--only" && has_value) {
+      a.only = std::string(",") + argv[++i] + ",";
+    } else if (word == "--surface" && has_value) {
+      a.options.surface = std::string(argv[++i]) == "cells" ? SurfaceMode::cells : SurfaceMode::sdf;
+    } else if (a.folder.empty() && word.rfind("--", 0) != 0) {
+      a.folder = word;
+    } else {
+      throw UsageError(
+          "usage: cellocut_sweep FOLDER [--resolution R] [--only NAME,...] "
+          "[--surface sdf|cells]");
+    }
+  }
+  if (a.folder.empty()) throw UsageError("name the folder of the meshes");
+  return a;
+}
+
+// Every exact solver on the problem of `result`; what disagrees, or nothing.
+std::string disagreement(const RemeshResult& result, const RemeshOptions& options) {
+  for (const Variant<CutSolver>& variant : solvers::registered()) {
+    if (variant.make == nullptr) continue;
+    const std::unique_ptr<CutSolver> solver = variant.make();
+    if (!solver->info().exact) continue;
+    const CutResult cut = solver->solve(result.graph.problem);
+    if (cut.status != CutStatus::optimal) return variant.name + ": " + cut.message;
+    if (cut.value != result.cut.value) return variant.name + ": another value";
+    if (cut.smallest_source_side != result.cut.smallest_source_side ||
+        cut.largest_source_side != result.cut.largest_source_side) {
+      return variant.name + ": another canonical labelling";
+    }
+    const std::vector<std::int64_t> flow =
+        lift_flow(result.graph, result.facets, result.areas, result.initial_label, result.anchors,
+                  options.lambda_fill, cut.edge_flow);
+    const CertificateReport certificate = check_certificate(
+        {.complex = result.complex,
+         .initial = result.initial_label,
+         .mode = options.exterior,
+         .lambda = options.lambda_fill,
+         .unit = result.frame.unit,
+         .area_bits = options.area_bits,
+         .facet_flow = flow,
+         .value = cut.value,
+         .smallest_interior = expand_labels(result.graph, cut.smallest_source_side),
+         .largest_interior = expand_labels(result.graph, cut.largest_source_side)});
+    if (!certificate.valid) return variant.name + ": the certificate fails";
+  }
+  return {};
+}
+
+std::string surface_defect(const RemeshResult& result) {
+  const SurfaceReport& report = result.surface_report;
+  if (result.surface.empty()) return "no surface";
+  if (!report.valid()) return "the surface is not valid";
+  if (!(report.volume > 0)) return "the volume is not positive";
+  return {};
+}
+
+double energy(const RemeshResult& result) {
+  return static_cast<double>(result.cut.value) / result.areas.scale;
+}
+
+// Cells (as vertex quadruples) of one complex that the other does not have, as a share of all
+// cells.
+double differing_share(const TetComplex& a, const TetComplex& b) {
+  const auto quadruples = [](const TetComplex& complex) {
+    auto cells = complex.cells;
+    for (auto& cell : cells) std::sort(cell.begin(), cell.end());
+    std::sort(cells.begin(), cells.end());
+    return cells;
+  };
+  const auto cells_a = quadruples(a);
+  const auto cells_b = quadruples(b);
+  std::vector<std::array<std::uint32_t, 4>> common;
+  std::set_intersection(cells_a.begin(), cells_a.end(), cells_b.begin(), cells_b.end(),
+                        std::back_inserter(common));
+  return 1 - static_cast<double>(common.size()) /
+                 static_cast<double>(std::max(cells_a.size(), cells_b.size()));
+}
+
+// One mesh on all backends. True where it passes.
+bool run_mesh(const std::filesystem::path& path, const RemeshOptions& options) {
+  const TriangleSoup input = read_mesh(path.string());
+  std::vector<std::pair<std::string, RemeshResult>> results;
+  bool passed = true;
+  for (const Variant<Tetrahedralizer>& backend : backends::registered()) {
+    if (backend.make == nullptr) continue;
+    const Stopwatch stopwatch;
+    const std::unique_ptr<Tetrahedralizer> tetrahedralizer = backend.make();
+    const std::unique_ptr<CutSolver> solver = solvers::make("bk");
+    RemeshResult result = remesh(input, options, *tetrahedralizer, *solver);
+    const double seconds = stopwatch.seconds();
+    std::string defect = surface_defect(result);
+    if (!result.certificate.valid) defect = "the certificate fails";
+    if (defect.empty()) defect = disagreement(result, options);
+    passed = passed && defect.empty();
+    const SurfaceReport& report = result.surface_report;
+    fmt::print("{:<40} {:<7} {:>8} {:>8} {:>16} {:>8} {:>5} {:>11.5g} {:>6.2f} {:>6.3f}  {}\n",
+               path.filename().string(), backend.name, result.complex.cells.size(),
+               result.graph.problem.node_count(), result.cut.value, report.triangles,
+               report.components.size(), report.volume, seconds, result.proxy.largest_distance,
+               defect.empty() ? "ok" : defect);
+    std::fflush(stdout);
+    results.emplace_back(backend.name, std::move(result));
+  }
+  if (results.size() == 2) {
+    const RemeshResult& a = results[0].second;
+    const RemeshResult& b = results[1].second;
+    fmt::print("{:<40} between {}: energy differs by {:.2e}, {:.4f} % of the cells differ\n", "",
+               results[0].first + " and " + results[1].first,
+               std::abs(energy(a) - energy(b)) / energy(a),
+               100 * differing_share(a.complex, b.complex));
+  }
+  return passed;
+}
+
+int run(const Arguments& a) {
+  std::vector<std::filesystem::path> meshes;
+  for (const auto& entry : std::filesystem::directory_iterator(a.folder)) {
+    const std::string name = entry.path().filename().string();
+    if (!format_of_path(name)) continue;
+    if (!a.only.empty() && a.only.find("," + name + ",") == std::string::npos) continue;
+    meshes.push_back(entry.path());
+  }
+  std::sort(meshes.begin(), meshes.end());
+  fmt::print("{:<40} {:<7} {:>8} {:>8} {:>16} {:>8} {:>5} {:>11} {:>6} {:>6}  {}\n", "mesh",
+             "backend", "cells", "nodes", "cut value", "faces", "parts", "volume", "s", "proxy",
+             "all exact solvers, certificates, surface");
+  int passed = 0;
+  int failed = 0;
+  for (const std::filesystem::path& mesh : meshes) {
+    try {
+      (run_mesh(mesh, a.options) ? passed : failed) += 1;
+    } catch (const Error& error) {
+      fmt::print("{:<40} {}\n", mesh.filename().string(), error.what());
+      ++failed;
+    }
+  }
+  fmt::print("{} passed, {} failed\n", passed, failed);
+  return failed == 0 && passed > 0 ? 0 : 1;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run(parse(argc, argv));
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "cellocut_sweep: {}\n", error.what());
+    return 2;
+  }
+}

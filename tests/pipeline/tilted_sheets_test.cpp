@@ -76,7 +76,7 @@ void expect_remeshed(int resolution, std::uint64_t directions) {
 }
 
 TEST(TiltedSheetsRemeshed, AreOneBallAtR256) { expect_remeshed(256, kDirections); }
-TEST(TiltedSheetsRemeshed, AreOneBallAtR512) { expect_remeshed(512, 40); }
+TEST(TiltedSheetsRemeshed, AreOneBallAtR512) { expect_remeshed(512, 12); }
 
 }  // namespace
 }  // namespace cellocut::testing

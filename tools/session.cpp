@@ -102,7 +102,8 @@ void require_writable(const std::vector<std::string>& paths) {
   for (std::size_t i = 0; i < paths.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
       if (!paths[i].empty() && paths[i] == paths[j]) {
-        throw UsageError(paths[i] + ": two outputs cannot be the same file");
+        throw UsageError(paths[i] == "-" ? "only one output can be standard output"
+                                         : paths[i] + ": two outputs cannot be the same file");
       }
     }
   }

@@ -48,7 +48,7 @@ void check_range(const FacetList& facets, const FacetAreas& areas, const CellLab
   // Both directions of every facet bound all sums that a problem made of them can contain.
   Wide sum = 0;
   for (std::size_t f = 0; f < facets.size(); ++f) {
-    sum += 2 * Wide{facet_capacity(facets[f], areas.quantised[f], initial, lambda)};
+    sum += 2 * Wide{areas.quantised[f]} * facet_weight(facets[f], initial, lambda);
   }
   if (sum >= Wide{kCapacityLimit}) {
     throw LimitError("the capacities sum to 2^62 or more with lambda_fill = " + to_string(lambda) +
@@ -115,9 +115,8 @@ CellLabels expand_labels(const CellGraph& graph, const CutLabels& source_side) {
 }
 
 std::vector<std::int64_t> lift_flow(const CellGraph& graph, const FacetList& facets,
-                                    const FacetAreas& areas,
-                                    const CellLabels& initial, const std::vector<Anchor>& anchors,
-                                    const Rational& lambda,
+                                    const FacetAreas& areas, const CellLabels& initial,
+                                    const std::vector<Anchor>& anchors, const Rational& lambda,
                                     const std::vector<std::int64_t>& edge_flow) {
   const CutProblem& problem = graph.problem;
   const std::vector<std::int64_t> out = node_balances(problem, edge_flow);
@@ -136,8 +135,7 @@ std::vector<std::int64_t> lift_flow(const CellGraph& graph, const FacetList& fac
     const Anchor beyond = anchor_beyond(anchors, facet.other);
     const Anchor here = anchors[facet.cell];
     const std::int32_t node_here = graph.node_of_cell[facet.cell];
-    const std::int32_t node_beyond =
-        facet.other == kOutside ? -1 : graph.node_of_cell[facet.other];
+    const std::int32_t node_beyond = facet.other == kOutside ? -1 : graph.node_of_cell[facet.other];
     // What the facet carries from the interior anchor (or to the exterior one) of its one end.
     const auto take = [capacity](std::int64_t& left) {
       const std::int64_t flow = std::min(capacity, left);

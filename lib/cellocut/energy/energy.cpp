@@ -142,10 +142,14 @@ std::vector<Anchor> anchor_cells(const TetComplex& complex, const CellLabels& in
   return anchors;
 }
 
+std::int64_t facet_weight(const Facet& facet, const CellLabels& initial, const Rational& lambda) {
+  const std::uint8_t beyond = facet.other == kOutside ? kExterior : initial[facet.other];
+  return initial[facet.cell] != beyond ? lambda.denominator : lambda.numerator;
+}
+
 std::int64_t facet_capacity(const Facet& facet, std::int64_t quantised, const CellLabels& initial,
                             const Rational& lambda) {
-  const std::uint8_t beyond = facet.other == kOutside ? kExterior : initial[facet.other];
-  return quantised * (initial[facet.cell] != beyond ? lambda.denominator : lambda.numerator);
+  return quantised * facet_weight(facet, initial, lambda);
 }
 
 std::int64_t labelling_energy(const FacetList& facets, const FacetAreas& areas,
@@ -155,7 +159,7 @@ std::int64_t labelling_energy(const FacetList& facets, const FacetAreas& areas,
   for (std::size_t f = 0; f < facets.size(); ++f) {
     const std::uint8_t beyond = facets[f].other == kOutside ? kExterior : labels[facets[f].other];
     if (labels[facets[f].cell] == beyond) continue;
-    energy += facet_capacity(facets[f], areas.quantised[f], initial, lambda);
+    energy += Wide{areas.quantised[f]} * facet_weight(facets[f], initial, lambda);
   }
   if (energy >= Wide{1} << 62) throw LimitError("the energy reaches 2^62; lower --area-bits");
   return static_cast<std::int64_t>(energy);

@@ -3,8 +3,8 @@
 //   E(L) = sum over facets f between cells of different label of  w_f * area(f),
 //   w_f  = 1 where the initial labels L* differ, lambda_fill where they agree,
 //
-// over labellings with L(c) = 0 (interior) wherever L*(c) = 0. The unbounded region beyond the hull is
-// one more cell with L* = 1 that is fixed exterior; hull facets are facets to it.
+// over labellings with L(c) = 0 (interior) wherever L*(c) = 0. The unbounded region beyond the hull
+// is one more cell with L* = 1 that is fixed exterior; hull facets are facets to it.
 #pragma once
 
 #include <cstdint>
@@ -38,26 +38,28 @@ enum class ExteriorMode {
 // A facet of the complex, named once: by its cell of lower index.
 struct Facet {
   std::uint32_t cell = 0;
-  std::uint8_t corner = 0;          // opposite to this corner of `cell`
-  std::int32_t other = kOutside;    // the cell beyond, > cell, or kOutside
+  std::uint8_t corner = 0;        // opposite to this corner of `cell`
+  std::int32_t other = kOutside;  // the cell beyond, > cell, or kOutside
 };
 using FacetList = std::vector<Facet>;
 
-// All facets, ascending by (cell, corner): each pair of neighbours once, each hull facet once. O(cells).
+// All facets, ascending by (cell, corner): each pair of neighbours once, each hull facet once.
+// O(cells).
 FacetList list_facets(const TetComplex& complex);
 
 // Facet areas as integers: quantised[f] = max(1, llround(scale * area_f / unit^2)), with scale the
 // largest power of two for which the sum stays <= 2^area_bits.
 struct FacetAreas {
   std::vector<std::int64_t> quantised;
-  double unit = 1;              // length of one relative unit, in input units
-  double scale = 1;             // quanta per squared relative unit, a power of two
+  double unit = 1;   // length of one relative unit, in input units
+  double scale = 1;  // quanta per squared relative unit, a power of two
   std::int64_t sum = 0;
-  double largest_error = 0;     // max |quantised / scale - area|, in squared relative units
-  double total_error = 0;       // |sum / scale - total area|, in squared relative units
+  double largest_error = 0;  // max |quantised / scale - area|, in squared relative units
+  double total_error = 0;    // |sum / scale - total area|, in squared relative units
 };
 // `unit`: the longest edge of the input's bounding box. area_bits in [8, 50].
-// Errors: UsageError for area_bits out of range; LimitError where even one quantum a facet exceeds it.
+// Errors: UsageError for area_bits out of range; LimitError where even one quantum a facet exceeds
+// it.
 FacetAreas quantise_areas(const TetComplex& complex, const FacetList& facets, double unit,
                           int area_bits);
 
@@ -66,8 +68,12 @@ enum class Anchor : std::uint8_t { free = 0, interior = 1, exterior = 2 };
 std::vector<Anchor> anchor_cells(const TetComplex& complex, const CellLabels& initial,
                                  ExteriorMode mode);
 
-// Capacity of a facet in integer units: denominator * quantised where L* differs across it,
-// numerator * quantised where it does not.
+// w_f times the denominator of lambda: the denominator where L* differs across the facet, the
+// numerator where it does not.
+std::int64_t facet_weight(const Facet& facet, const CellLabels& initial, const Rational& lambda);
+
+// Capacity of a facet in integer units, weight times quantised area. Precondition: the product
+// fits, as build_cell_graph has checked.
 std::int64_t facet_capacity(const Facet& facet, std::int64_t quantised, const CellLabels& initial,
                             const Rational& lambda);
 

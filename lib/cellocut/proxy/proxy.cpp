@@ -19,9 +19,9 @@ namespace {
 constexpr double kRaster = 0.5;  // grid steps between samples on a face
 
 // Errors that decimation may make, in grid steps: of the whole surface, and of the places where
-// that went too far. The simplifier's error is an average, so the first is no bound; what the
-// second leaves wrong is kept as it was.
-constexpr double kErrors[] = {kProxyTolerance, 0.2 * kProxyTolerance};
+// that went too far, and again. The simplifier's error is an average, so none is a bound; what the
+// last one leaves wrong is kept as it was.
+constexpr double kErrors[] = {kProxyTolerance, 0.5 * kProxyTolerance, 0.2 * kProxyTolerance};
 
 // Quadric edge collapse onto existing vertices (meshoptimizer): `faces` of `positions`, fewer of
 // them.
@@ -73,22 +73,20 @@ Patch cut_out(const TriangleSoup& surface, const std::vector<Triangle>& faces) {
   return patch;
 }
 
-// The largest |phi| over a raster on the triangle.
-double measure(const std::vector<Point3>& points, const Triangle& face, FieldSampler& phi) {
+// Visits a raster of points on the triangle, corners and edges included, at most `spacing` apart.
+template <class Visit>
+void for_each_raster_point(const std::vector<Point3>& points, const Triangle& face, double spacing,
+                           const Visit& visit) {
   const Point3& a = points[face[0]];
   const Point3 u = points[face[1]] - a;
   const Point3 v = points[face[2]] - a;
   const double longest = std::max({norm(u), norm(v), norm(u - v)});
-  const int steps = std::max(1, static_cast<int>(std::ceil(longest / kRaster)));
-  double largest = 0;
+  const int steps = std::max(1, static_cast<int>(std::ceil(longest / spacing)));
   for (int i = 0; i <= steps; ++i) {
     for (int j = 0; i + j <= steps; ++j) {
-      const Point3 p =
-          (a + (static_cast<double>(i) / steps) * u) + (static_cast<double>(j) / steps) * v;
-      largest = std::max(largest, std::fabs(phi(p)));
+      visit((a + (static_cast<double>(i) / steps) * u) + (static_cast<double>(j) / steps) * v);
     }
   }
-  return largest;
 }
 
 std::vector<double> measure_all(const TriangleSoup& surface, const std::vector<Triangle>& faces,
@@ -98,7 +96,10 @@ std::vector<double> measure_all(const TriangleSoup& surface, const std::vector<T
                     [&](const tbb::blocked_range<std::size_t>& range) {
                       FieldSampler sampler(phi);
                       for (std::size_t i = range.begin(); i != range.end(); ++i) {
-                        largest[i] = measure(surface.points, faces[i], sampler);
+                        for_each_raster_point(
+                            surface.points, faces[i], kRaster, [&](const Point3& p) {
+                              largest[i] = std::max(largest[i], std::fabs(sampler(p)));
+                            });
                       }
                     });
   return largest;
@@ -107,17 +108,14 @@ std::vector<double> measure_all(const TriangleSoup& surface, const std::vector<T
 // A set of grid cells.
 class CellSet {
  public:
-  // Adds the cells of the triangle's box, one step wider.
-  void add_around(const Point3& a, const Point3& b, const Point3& c) {
-    int low[3];
-    int high[3];
-    for (int axis = 0; axis < 3; ++axis) {
-      low[axis] = static_cast<int>(std::min({a[axis], b[axis], c[axis]})) - 1;
-      high[axis] = static_cast<int>(std::max({a[axis], b[axis], c[axis]})) + 1;
-    }
-    for (int x = low[0]; x <= high[0]; ++x) {
-      for (int y = low[1]; y <= high[1]; ++y) {
-        for (int z = low[2]; z <= high[2]; ++z) cells_.insert(key(x, y, z));
+  // Adds the cell of p and those around it.
+  void add_around(const Point3& p) {
+    for (int dx = -1; dx <= 1; ++dx) {
+      for (int dy = -1; dy <= 1; ++dy) {
+        for (int dz = -1; dz <= 1; ++dz) {
+          cells_.insert(key(static_cast<int>(p[0]) + dx, static_cast<int>(p[1]) + dy,
+                            static_cast<int>(p[2]) + dz));
+        }
       }
     }
   }
@@ -138,7 +136,7 @@ class CellSet {
 std::vector<Triangle> faces_around(const TriangleSoup& surface, const std::vector<Triangle>& bad) {
   CellSet cells;
   for (const Triangle& t : bad) {
-    cells.add_around(surface.points[t[0]], surface.points[t[1]], surface.points[t[2]]);
+    for_each_raster_point(surface.points, t, 1.0, [&](const Point3& p) { cells.add_around(p); });
   }
   std::vector<Triangle> around;
   for (const Triangle& t : surface.triangles) {

@@ -27,7 +27,7 @@ struct Proxy {
 // Decimates `surface` (phi = 0 in index coordinates, from extract_iso_surface) by quadrics until
 // `removed_share` of its faces are gone, and measures |phi| over every face on a raster of half a
 // grid step. Faces further away than kProxyTolerance are dropped, and the full surface around them
-// is decimated again with a fifth of the error; what is still too far away then is taken from the
+// is decimated again with less error; what is still too far away in the end is taken from the
 // full surface as it is. So the distance wins over the share, and only where it has to.
 // Preconditions: removed_share in [0, 0.99]. Errors: Cancelled.
 Proxy make_proxy(const TriangleSoup& surface, const SparseField& phi, const Frame& frame,

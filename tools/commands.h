@@ -1,5 +1,5 @@
-// The subcommands. Each adds itself to the program and returns what runs it: the exit code, or an exception
-// that report_error() turns into one.
+// The subcommands. Each adds itself to the program and returns what runs it: the exit code, or an
+// exception that report_error() turns into one.
 #pragma once
 
 #include <functional>

@@ -8,16 +8,16 @@ namespace cellocut::tools {
 
 enum ExitCode : int {
   kDone = 0,
-  kUsage = 2,             // wrong usage
-  kBadInput = 3,          // unreadable or invalid input
-  kNoGuarantee = 4,       // the guarantee could not be met
-  kCertificateFailed = 5, // a certificate failed or exact solvers disagree
-  kLimit = 6,             // out of a stated limit: memory, time, integer range, room on a disk
+  kUsage = 2,              // wrong usage
+  kBadInput = 3,           // unreadable or invalid input
+  kNoGuarantee = 4,        // the guarantee could not be met
+  kCertificateFailed = 5,  // a certificate failed or exact solvers disagree
+  kLimit = 6,              // out of a stated limit: memory, time, integer range, room on a disk
   kInterrupted = 130
 };
 
-// Prints `cellocut: [FILE: ]what is wrong` to standard error and says which code goes with the exception.
-// `input` names the file for errors that do not know theirs.
+// Prints `cellocut: [FILE: ]what is wrong` to standard error and says which code goes with the
+// exception. `input` names the file for errors that do not know theirs.
 int report_error(const std::exception& error, const std::string& input);
 
 // One line on standard error, as above.

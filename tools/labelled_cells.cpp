@@ -59,8 +59,9 @@ viz::LabelledCells labelled_cells(const RemeshResult& result, const RemeshOption
   cells.arrays.push_back({"phi", phi});
   cells.arrays.push_back({"volume", volume});
 
-  const double energy_unit = result.frame.unit * result.frame.unit /
-                             (result.areas.scale * static_cast<double>(options.lambda_fill.denominator));
+  const double energy_unit =
+      result.frame.unit * result.frame.unit /
+      (result.areas.scale * static_cast<double>(options.lambda_fill.denominator));
   cells.fields = {
       {"cellocut_version", std::string(kCellocutVersion)},
       {"legend_label", std::string("0 interior, 1 exterior")},

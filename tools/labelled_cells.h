@@ -10,8 +10,8 @@ namespace cellocut::tools {
 
 using viz::encode_vtu;
 
-// label_initial, label, anchored, ambiguous, phi, volume, component; parameters and energy as field data.
-// Arrays that the pipeline did not get to are left out.
+// label_initial, label, anchored, ambiguous, phi, volume, component; parameters and energy as field
+// data. Arrays that the pipeline did not get to are left out.
 viz::LabelledCells labelled_cells(const RemeshResult& result, const RemeshOptions& options,
                                   const std::string& solver);
 

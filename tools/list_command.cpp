@@ -64,8 +64,7 @@ Command add_list(CLI::App& program) {
   common->add_to(*app);
   const auto run = [common] {
     const Json report{
-        {"backends",
-         describe(backends::registered(), [](Json&, const TetrahedralizerInfo&) {})},
+        {"backends", describe(backends::registered(), [](Json&, const TetrahedralizerInfo&) {})},
         {"solvers", describe(solvers::registered(), [](Json& row, const SolverInfo& info) {
            row["exact"] = info.exact;
            row["outside"] = info.outside;

@@ -10,7 +10,8 @@
 int main(int argc, char** argv) {
   using namespace cellocut::tools;
   CLI::App program{
-      "Turns a defective triangle mesh into a closed, manifold, embedded solid by a minimum cut over "
+      "Turns a defective triangle mesh into a closed, manifold, embedded solid by a minimum cut "
+      "over "
       "the cells of a Delaunay tetrahedralization."};
   program.name("cellocut");
   program.set_version_flag("--version", kCellocutVersion);

@@ -92,16 +92,15 @@ bool RemeshResult::empty_solid() const {
 
 // The paper's Algorithm 1, line by line.
 RemeshResult remesh(const TriangleSoup& input, const RemeshOptions& options,
-                    const Tetrahedralizer& tetrahedralizer, CutSolver& solver,
-                    Observer& observer) {
+                    const Tetrahedralizer& tetrahedralizer, CutSolver& solver, Observer& observer) {
   options.validate();
   RemeshResult result;
   StageClock stage(result.stages, observer);
 
   // Stage 1: discretization.
   result.derived = derive_parameters(input, options);
-  result.frame = make_frame(bounding_box(input), options.resolution,
-                            result.derived.epsilon_steps + kBand + 1);
+  result.frame =
+      make_frame(bounding_box(input), options.resolution, result.derived.epsilon_steps + kBand + 1);
   result.phi = stage("field", [&] { return compute_phi(input, options, result, observer); });
   const TriangleSoup thick = stage("iso-surface", [&] { return extract_iso_surface(result.phi); });
   result.proxy = stage("decimation", [&] {
@@ -134,12 +133,11 @@ RemeshResult remesh(const TriangleSoup& input, const RemeshOptions& options,
   if (result.cut.status == CutStatus::invalid) return result;
   result.smallest_interior = expand_labels(result.graph, result.cut.smallest_source_side);
   result.largest_interior = expand_labels(result.graph, result.cut.largest_source_side);
-  result.label = options.cut == CutChoice::largest ? result.largest_interior
-                                                   : result.smallest_interior;
+  result.label =
+      options.cut == CutChoice::largest ? result.largest_interior : result.smallest_interior;
   result.certificate = stage("certificate", [&] {
-    result.facet_flow =
-        lift_flow(result.graph, result.facets, result.areas, result.initial_label,
-                  result.anchors, options.lambda_fill, result.cut.edge_flow);
+    result.facet_flow = lift_flow(result.graph, result.facets, result.areas, result.initial_label,
+                                  result.anchors, options.lambda_fill, result.cut.edge_flow);
     return certify(result, options);
   });
   if (result.empty_solid()) return result;

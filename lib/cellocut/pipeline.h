@@ -1,4 +1,5 @@
-// The pipeline: a defective triangle mesh in, a closed manifold solid out, with every intermediate product.
+// The pipeline: a defective triangle mesh in, a closed manifold solid out, with every intermediate
+// product.
 #pragma once
 
 #include <optional>
@@ -29,19 +30,20 @@ enum class SurfaceMode {
 enum class CutChoice { smallest, largest };
 
 struct RemeshOptions {
-  int resolution = 512;       // R, grid steps along the longest edge of the box; 8 to 16384
-  // Thickening offset, relative to the longest edge. Default max(1/512, 1/R); at least 1/(2R), at most 1.
+  int resolution = 512;  // R, grid steps along the longest edge of the box; 8 to 16384
+  // Thickening offset, relative to the longest edge. Default max(1/512, 1/R); at least 1/(2R), at
+  // most 1.
   std::optional<double> epsilon;
   // The same in input units; at most one of the two may be given.
   std::optional<double> epsilon_absolute;
-  double decimate = 0.95;     // share of the proxy's faces to remove; 0 to 0.99
+  double decimate = 0.95;       // share of the proxy's faces to remove; 0 to 0.99
   Rational lambda_fill{20, 1};  // weight of an unsupported interface; terms up to 2^20
   ExteriorMode exterior = ExteriorMode::unbounded;
-  int area_bits = 40;         // facet areas sum to at most 2^area_bits quanta; 8 to 50
+  int area_bits = 40;  // facet areas sum to at most 2^area_bits quanta; 8 to 50
   CutChoice cut = CutChoice::largest;
   SurfaceMode surface = SurfaceMode::sdf;
-  bool thickening = true;     // false: phi is the flood-signed distance, no offset (ablation)
-  bool unary = true;          // false: L* only sets weights, nothing is anchored interior (ablation)
+  bool thickening = true;  // false: phi is the flood-signed distance, no offset (ablation)
+  bool unary = true;       // false: L* only sets weights, nothing is anchored interior (ablation)
   // Surface components of less than this share of the total volume are dropped; 0 to 1.
   double min_component = 0;
   // The format that the surface will be written in: it is judged as a reader will see it.
@@ -58,34 +60,34 @@ struct StageTime {
 
 // What the options come to on a given input.
 struct DerivedParameters {
-  double epsilon = 0;            // relative
-  double epsilon_steps = 0;      // in grid steps
+  double epsilon = 0;               // relative
+  double epsilon_steps = 0;         // in grid steps
   bool epsilon_below_step = false;  // eps < h: thin parts may perforate
 };
 
-// Errors: InputError for a mesh without faces or extent; UsageError where eps < h / 2 (a slab thinner than
-// the grid perforates), naming the smallest usable resolution and epsilon.
+// Errors: InputError for a mesh without faces or extent; UsageError where eps < h / 2 (a slab
+// thinner than the grid perforates), naming the smallest usable resolution and epsilon.
 DerivedParameters derive_parameters(const TriangleSoup& input, const RemeshOptions& options);
 
 struct RemeshResult {
   DerivedParameters derived;
   Frame frame;
-  SparseField phi;                    // the thickening field, in grid steps
+  SparseField phi;  // the thickening field, in grid steps
   Proxy proxy;
   TetComplex complex;
-  std::vector<float> centroid_phi;    // phi at every cell's centroid, in grid steps
-  CellLabels initial_label;           // L*
+  std::vector<float> centroid_phi;  // phi at every cell's centroid, in grid steps
+  CellLabels initial_label;         // L*
   FacetList facets;
   FacetAreas areas;
   std::vector<Anchor> anchors;
   CellGraph graph;
   CutResult cut;
-  CellLabels smallest_interior;       // the two canonical minima
+  CellLabels smallest_interior;  // the two canonical minima
   CellLabels largest_interior;
-  CellLabels label;                   // the one chosen
+  CellLabels label;  // the one chosen
   std::vector<std::int64_t> facet_flow;
   CertificateReport certificate;
-  TriangleSoup surface;               // in input units; as the reader of the file will see it
+  TriangleSoup surface;  // in input units; as the reader of the file will see it
   SurfaceReport surface_report;
   std::int64_t dropped_components = 0;
   std::vector<StageTime> stages;

@@ -1,4 +1,5 @@
-// The proxy keeps its distance from phi = 0, measured against analytic surfaces and not by the field.
+// The proxy keeps its distance from phi = 0, measured against analytic surfaces and not by the
+// field.
 #include "cellocut/proxy/proxy.h"
 
 #include <gtest/gtest.h>
@@ -40,8 +41,8 @@ double largest_departure(const Proxy& proxy, const Frame& frame,
     const Point3 v = proxy.mesh.points[face[2]] - a;
     for (int i = 0; i <= kSteps; ++i) {
       for (int j = 0; i + j <= kSteps; ++j) {
-        const Point3 p = (a + (static_cast<double>(i) / kSteps) * u) +
-                         (static_cast<double>(j) / kSteps) * v;
+        const Point3 p =
+            (a + (static_cast<double>(i) / kSteps) * u) + (static_cast<double>(j) / kSteps) * v;
         largest = std::max(largest, std::fabs(phi(p)) / frame.spacing);
       }
     }

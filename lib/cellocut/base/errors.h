@@ -1,5 +1,5 @@
-// Everything that CelloCut throws. An outcome (a gap left, a certificate that failed) is a status in a
-// result; a caller's mistake, a bad file or a limit that was hit is one of these exceptions.
+// Everything that CelloCut throws. An outcome (a gap left, a certificate that failed) is a status
+// in a result; a caller's mistake, a bad file or a limit that was hit is one of these exceptions.
 #pragma once
 
 #include <stdexcept>

@@ -30,8 +30,8 @@ inline double norm(const Point3& a) { return std::sqrt(squared_norm(a)); }
 inline double triangle_area(const Point3& a, const Point3& b, const Point3& c) {
   return 0.5 * norm(cross(b - a, c - a));
 }
-// Six times the signed volume of (a, b, c, d): positive when d lies on the side of triangle (a, b, c)
-// from which it is seen clockwise, that is, for the usual positively oriented tetrahedron
+// Six times the signed volume of (a, b, c, d): positive when d lies on the side of triangle (a, b,
+// c) from which it is seen clockwise, that is, for the usual positively oriented tetrahedron
 // (0,0,0), (1,0,0), (0,1,0), (0,0,1).
 constexpr double six_volumes(const Point3& a, const Point3& b, const Point3& c, const Point3& d) {
   return dot(cross(b - a, c - a), d - a);

@@ -14,8 +14,8 @@ int orientation(const Point3& a, const Point3& b, const Point3& c, const Point3&
 }
 
 int turn(double ax, double ay, double bx, double by, double px, double py) {
-  return static_cast<int>(CGAL::orientation(Kernel::Point_2(ax, ay), Kernel::Point_2(bx, by),
-                                            Kernel::Point_2(px, py)));
+  return static_cast<int>(
+      CGAL::orientation(Kernel::Point_2(ax, ay), Kernel::Point_2(bx, by), Kernel::Point_2(px, py)));
 }
 
 bool collinear(const Point3& a, const Point3& b, const Point3& c) {

@@ -11,7 +11,8 @@ int orientation(const Point3& a, const Point3& b, const Point3& c, const Point3&
 // Whether the three points lie on one line (or coincide), exact.
 bool collinear(const Point3& a, const Point3& b, const Point3& c);
 
-// In the plane: +1 where (px, py) lies left of the directed line from a to b, 0 on it, -1 right; exact.
+// In the plane: +1 where (px, py) lies left of the directed line from a to b, 0 on it, -1 right;
+// exact.
 int turn(double ax, double ay, double bx, double by, double px, double py);
 
 }  // namespace cellocut

@@ -1,8 +1,8 @@
 // A tetrahedral complex: what a Delaunay backend delivers and what the energy is defined on.
 //
 // Canonical form, the same for every backend and any number of threads: the corners of a cell are
-// ascending vertex indices but for the last two, which are swapped where the ascending order would be
-// negatively oriented; cells are sorted lexicographically by their ascending quadruple. So two
+// ascending vertex indices but for the last two, which are swapped where the ascending order would
+// be negatively oriented; cells are sorted lexicographically by their ascending quadruple. So two
 // backends that find the same Delaunay triangulation deliver the same arrays.
 #pragma once
 
@@ -42,9 +42,9 @@ Point3 cell_centroid(const TetComplex& complex, std::uint32_t cell);
 double cell_volume(const TetComplex& complex, std::uint32_t cell);
 
 // Brings cells of any order into canonical form and computes neighbours.
-// `cells` holds corner quadruples in which each cell is positively oriented (an exact statement that
-// the backend makes; it is not re-derived in floating point).
-// Errors: Error where a facet belongs to more than two cells. O(n log n).
+// `cells` holds corner quadruples in which each cell is positively oriented (an exact statement
+// that the backend makes; it is not re-derived in floating point). Errors: Error where a facet
+// belongs to more than two cells. O(n log n).
 TetComplex make_canonical(std::vector<Point3> points,
                           std::vector<std::array<std::uint32_t, 4>> cells,
                           std::vector<std::uint32_t> first_copy);

@@ -28,7 +28,8 @@ std::vector<std::uint32_t> find_first_copies(const std::vector<Point3>& points) 
   return first_copy;
 }
 
-// Whether the distinct points span space, decided exactly: some libraries abort the process otherwise.
+// Whether the distinct points span space, decided exactly: some libraries abort the process
+// otherwise.
 bool spans_space(const std::vector<Point3>& points) {
   const Point3& a = points[0];
   const Point3& b = points[1];

@@ -24,8 +24,8 @@ class Tetrahedralizer {
   // The Delaunay complex of `points` in canonical form (tet_complex.h): its cells fill the convex
   // hull, every cell is positively oriented by exact predicates, every distinct point is a corner,
   // a duplicate maps to its first copy. Co-spherical ties are broken as the backend likes.
-  // Errors: InputError for non-finite coordinates, for fewer than four distinct points and for points
-  // that lie in one plane (decided exactly); Error for what the library behind it reports.
+  // Errors: InputError for non-finite coordinates, for fewer than four distinct points and for
+  // points that lie in one plane (decided exactly); Error for what the library behind it reports.
   [[nodiscard]] TetComplex tetrahedralize(std::vector<Point3> points) const;
 
  private:

@@ -28,7 +28,8 @@ void CutProblem::validate() const {
   for (std::size_t e = 0; e < edges.size(); ++e) {
     const CutEdge& edge = edges[e];
     if (edge.from >= node_count() || edge.to >= node_count()) {
-      throw InputError("cut problem: edge " + std::to_string(e) + " names a node that is not there");
+      throw InputError("cut problem: edge " + std::to_string(e) +
+                       " names a node that is not there");
     }
     if (edge.capacity < 0 || edge.reverse_capacity < 0) {
       throw InputError("cut problem: negative capacity at edge " + std::to_string(e));

@@ -3,8 +3,10 @@
 // A labelling puts every node on the source side or on the sink side. Its cost is
 //     constant + sum of to_source[i] over nodes i on the sink side
 //              + sum of to_sink[i]   over nodes i on the source side
-//              + sum of capacity         over edges with `from` on the source side and `to` on the sink side
-//              + sum of reverse_capacity over edges with `to` on the source side and `from` on the sink side.
+//              + sum of capacity         over edges with `from` on the source side and `to` on the
+//              sink side
+//              + sum of reverse_capacity over edges with `to` on the source side and `from` on the
+//              sink side.
 // Equivalently: arcs source -> i of capacity to_source[i] and i -> sink of capacity to_sink[i].
 // For a remesh the source side is the interior.
 #pragma once
@@ -41,7 +43,8 @@ struct CutProblem {
 // One entry per node, 1 on the source side.
 using CutLabels = std::vector<std::uint8_t>;
 
-// The cost of a labelling as defined above. Precondition: problem.validate() holds. O(nodes + edges).
+// The cost of a labelling as defined above. Precondition: problem.validate() holds. O(nodes +
+// edges).
 std::int64_t cut_cost(const CutProblem& problem, const CutLabels& source_side);
 
 }  // namespace cellocut

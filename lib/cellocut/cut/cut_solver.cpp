@@ -9,7 +9,8 @@ namespace cellocut {
 
 namespace {
 
-// The residual graph of a flow in compressed rows: arcs[row[i] .. row[i+1]) are the edges at node i.
+// The residual graph of a flow in compressed rows: arcs[row[i] .. row[i+1]) are the edges at node
+// i.
 struct Rows {
   std::vector<std::uint32_t> row;
   std::vector<std::uint32_t> edge;
@@ -78,9 +79,7 @@ const char* to_string(CutStatus status) {
   return "unknown";
 }
 
-void SolveContext::built() {
-  built_at_ = clock_.seconds();
-}
+void SolveContext::built() { built_at_ = clock_.seconds(); }
 
 TerminalFlow terminal_flow(std::int64_t to_source, std::int64_t to_sink, std::int64_t out) {
   const std::int64_t from_source = std::min(to_source, to_sink + out);

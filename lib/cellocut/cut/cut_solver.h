@@ -1,11 +1,11 @@
 // The contract of a minimum-cut solver.
 //
-// A solver delivers a maximum flow, one net value per edge. Everything else that a caller relies on is
-// recomputed here from that flow, by code that no solver shares: its feasibility, its value, and the two
-// canonical minimum cuts. A minimum cut is not unique; the set of nodes that the source reaches in the
-// residual graph is the smallest source side of all minimum cuts, the complement of the set that reaches
-// the sink is the largest (Picard and Queyranne 1980; Ford and Fulkerson 1962), and both are the same for
-// every maximum flow, so exact solvers agree bit for bit.
+// A solver delivers a maximum flow, one net value per edge. Everything else that a caller relies on
+// is recomputed here from that flow, by code that no solver shares: its feasibility, its value, and
+// the two canonical minimum cuts. A minimum cut is not unique; the set of nodes that the source
+// reaches in the residual graph is the smallest source side of all minimum cuts, the complement of
+// the set that reaches the sink is the largest (Picard and Queyranne 1980; Ford and Fulkerson
+// 1962), and both are the same for every maximum flow, so exact solvers agree bit for bit.
 #pragma once
 
 #include <cstdint>
@@ -22,17 +22,18 @@ namespace cellocut {
 
 enum class CutStatus {
   optimal,  // value == lower_bound, the flow proves it
-  invalid   // the flow that the solver returned breaks a capacity or a balance: a defect of the solver
+  invalid   // the flow that the solver returned breaks a capacity or a balance: a defect of the
+            // solver
 };
 const char* to_string(CutStatus status);
 
 struct SolverInfo {
   std::string name;
-  std::string summary;     // one line for `cellocut list`
-  std::string licence;     // SPDX, of the solver with what it links
-  std::string reference;   // what to cite
-  bool exact = true;       // delivers a maximum flow
-  bool outside = false;    // somebody else's code, an outside witness and never a default
+  std::string summary;    // one line for `cellocut list`
+  std::string licence;    // SPDX, of the solver with what it links
+  std::string reference;  // what to cite
+  bool exact = true;      // delivers a maximum flow
+  bool outside = false;   // somebody else's code, an outside witness and never a default
   std::int64_t capacity_limit = kCapacityLimit;  // refuses problems whose capacity sum is not below
 };
 
@@ -42,11 +43,11 @@ struct SolveOptions {
 
 struct CutResult {
   CutStatus status = CutStatus::invalid;
-  std::string message;              // why the status is `invalid`; empty otherwise
-  std::int64_t value = 0;           // cost of both labellings, problem.constant included
-  std::int64_t lower_bound = 0;     // value of the flow, problem.constant included
-  CutLabels smallest_source_side;   // of all minimum cuts, the one with the fewest source nodes
-  CutLabels largest_source_side;    // of all minimum cuts, the one with the most
+  std::string message;                  // why the status is `invalid`; empty otherwise
+  std::int64_t value = 0;               // cost of both labellings, problem.constant included
+  std::int64_t lower_bound = 0;         // value of the flow, problem.constant included
+  CutLabels smallest_source_side;       // of all minimum cuts, the one with the fewest source nodes
+  CutLabels largest_source_side;        // of all minimum cuts, the one with the most
   std::vector<std::int64_t> edge_flow;  // per edge, net flow from `from` to `to`
   std::vector<std::pair<std::string, std::int64_t>> counters;  // algorithm-specific
   double build_seconds = 0;   // from the problem to the solver's own arrays
@@ -86,8 +87,8 @@ class CutSolver {
   [[nodiscard]] virtual const SolverInfo& info() const = 0;
 
   // Validates the problem, solves and times it, and recomputes what the solver claims.
-  // Errors: InputError as CutProblem::validate; LimitError where the sum of capacities exceeds what this
-  // solver can represent; Cancelled.
+  // Errors: InputError as CutProblem::validate; LimitError where the sum of capacities exceeds what
+  // this solver can represent; Cancelled.
   [[nodiscard]] CutResult solve(const CutProblem& problem, const SolveOptions& options = {});
 
  private:

@@ -1,7 +1,7 @@
-// A proof that a labelling is a minimum of the energy, and that the two canonical labellings are the
-// smallest and the largest interior of all minima. It is checked here by code that shares nothing with
-// the solvers, the contraction of anchored cells or the lifting of the flow: the checker walks the
-// complex itself, recomputes every area and every capacity, and adds in 128 bits.
+// A proof that a labelling is a minimum of the energy, and that the two canonical labellings are
+// the smallest and the largest interior of all minima. It is checked here by code that shares
+// nothing with the solvers, the contraction of anchored cells or the lifting of the flow: the
+// checker walks the complex itself, recomputes every area and every capacity, and adds in 128 bits.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@
 namespace cellocut {
 
 struct CertificateCheck {
-  std::string name;    // stable, snake_case
+  std::string name;  // stable, snake_case
   bool passed = false;
   std::string detail;  // the figures compared, or where it fails first
 };
@@ -27,18 +27,18 @@ struct CertificateReport {
 // What is claimed, and the witness.
 struct CertificateClaim {
   const TetComplex& complex;
-  const CellLabels& initial;       // L*
+  const CellLabels& initial;  // L*
   ExteriorMode mode;
   Rational lambda;
-  double unit;                     // length of one relative unit, in input units
+  double unit;  // length of one relative unit, in input units
   int area_bits;
-  // Per facet, in the order ascending by (lower cell, corner) as list_facets has it: net flow from the
-  // facet's cell of lower index to the other (or out of the hull), in integer units.
+  // Per facet, in the order ascending by (lower cell, corner) as list_facets has it: net flow from
+  // the facet's cell of lower index to the other (or out of the hull), in integer units.
   const std::vector<std::int64_t>& facet_flow;
-  std::int64_t value;              // the claimed minimum, of the whole complex, in integer units
+  std::int64_t value;  // the claimed minimum, of the whole complex, in integer units
   const CellLabels& smallest_interior;
   const CellLabels& largest_interior;
-  bool unary = true;               // false: no cell is anchored interior, L* only sets weights
+  bool unary = true;  // false: no cell is anchored interior, L* only sets weights
 };
 
 // Checks, in this order, each reported by name:
@@ -49,8 +49,8 @@ struct CertificateClaim {
 //   smallest_energy, largest_energy   each labelling costs `value`
 //   flow_value                 net flow out of the interior anchors == `value`
 //   smallest_canonical, largest_canonical   equal the residual reachability of this flow
-// Never throws for a wrong claim; a later check is reported as not passed where an earlier one makes it
-// meaningless. O(cells).
+// Never throws for a wrong claim; a later check is reported as not passed where an earlier one
+// makes it meaningless. O(cells).
 CertificateReport check_certificate(const CertificateClaim& claim);
 
 }  // namespace cellocut

@@ -1,5 +1,5 @@
-// The blocks of the grid that a band around a level set of the distance reaches, found by octree descent.
-// Internal to the fields (OpenVDB types).
+// The blocks of the grid that a band around a level set of the distance reaches, found by octree
+// descent. Internal to the fields (OpenVDB types).
 #pragma once
 
 #include <memory>

@@ -5,9 +5,9 @@
 
 namespace cellocut {
 
-// Grid point (i, j, k) lies at origin + spacing * (i, j, k), in input units. `to_input` is one monotone
-// function per axis, which is what keeps a surface embedded that is embedded in index coordinates
-// (see surface/iso_surface.h).
+// Grid point (i, j, k) lies at origin + spacing * (i, j, k), in input units. `to_input` is one
+// monotone function per axis, which is what keeps a surface embedded that is embedded in index
+// coordinates (see surface/iso_surface.h).
 struct Frame {
   Point3 origin{};
   double spacing = 1;  // h in input units
@@ -27,11 +27,11 @@ struct Frame {
   }
 };
 
-// The frame for a box: spacing = longest edge / resolution, at least `margin` grid steps around the box,
-// and the box shifted against the grid by an irrational fraction of a step per axis: with the box on the
-// grid, every face of an axis-aligned model would put phi = 0 exactly on grid points.
-// Preconditions: resolution >= 1, margin >= 0, longest edge > 0. A scale of the box by a power of two
-// scales origin and spacing by exactly that.
+// The frame for a box: spacing = longest edge / resolution, at least `margin` grid steps around the
+// box, and the box shifted against the grid by an irrational fraction of a step per axis: with the
+// box on the grid, every face of an axis-aligned model would put phi = 0 exactly on grid points.
+// Preconditions: resolution >= 1, margin >= 0, longest edge > 0. A scale of the box by a power of
+// two scales origin and spacing by exactly that.
 Frame make_frame(const Box3& box, int resolution, double margin);
 
 }  // namespace cellocut

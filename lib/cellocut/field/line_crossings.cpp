@@ -24,10 +24,10 @@ struct Flat {
   double z;
 };
 
-// Whether the ray from (y, z) towards +z crosses the edge (a, b) in projection. The half-open rule in y
-// counts an edge end once; an edge is judged the same from every face at it, since the answer is exact and
-// depends only on the two end points as a set. So over a closed surface the answers cancel to an even
-// number, whatever is degenerate.
+// Whether the ray from (y, z) towards +z crosses the edge (a, b) in projection. The half-open rule
+// in y counts an edge end once; an edge is judged the same from every face at it, since the answer
+// is exact and depends only on the two end points as a set. So over a closed surface the answers
+// cancel to an even number, whatever is degenerate.
 bool ray_crosses(const Flat& a, const Flat& b, double y, double z) {
   const bool a_right = a.y > y;
   const bool b_right = b.y > y;
@@ -82,8 +82,9 @@ LineCrossings::LineCrossings(const TriangleSoup& mesh, const Frame& frame, int a
   std::vector<Crossing> crossings(offset.back());
   tbb::parallel_for(std::size_t{0}, faces.size(), [&](std::size_t f) {
     std::size_t next = offset[f];
-    for_each_crossing(faces[f],
-                      [&](std::uint64_t line, double x) { crossings[next++] = {line, x}; });
+    for_each_crossing(faces[f], [&](std::uint64_t line, double x) {
+      crossings[next++] = {line, x};
+    });
   });
   tbb::parallel_sort(crossings.begin(), crossings.end());
 

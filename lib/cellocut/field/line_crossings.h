@@ -11,12 +11,14 @@ namespace cellocut {
 
 class LineCrossings {
  public:
-  // Lines along `axis`; they are named by their grid indices j and k along axis + 1 and axis + 2 (mod 3),
-  // both in [0, frame.extent). `mesh` is in input units. Coverage is decided by exact predicates and a
-  // half-open rule: faces that share an edge leave no line between them and claim none twice.
+  // Lines along `axis`; they are named by their grid indices j and k along axis + 1 and axis + 2
+  // (mod 3), both in [0, frame.extent). `mesh` is in input units. Coverage is decided by exact
+  // predicates and a half-open rule: faces that share an edge leave no line between them and claim
+  // none twice.
   LineCrossings(const TriangleSoup& mesh, const Frame& frame, int axis);
 
-  // Whether an odd number of crossings on the line lie below `at`: inside, where the mesh bounds a region.
+  // Whether an odd number of crossings on the line lie below `at`: inside, where the mesh bounds a
+  // region.
   [[nodiscard]] bool inside(double at, int j, int k) const {
     const std::size_t line = line_number(j, k);
     std::size_t below = first_[line];

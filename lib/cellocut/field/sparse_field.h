@@ -10,9 +10,9 @@
 namespace cellocut {
 
 // Half the width of the stored band in grid steps: values with |value| < kBand are stored.
-// A cell of the grid that the zero set cuts has all eight corners in the band as long as the field is
-// 1-Lipschitz: a cut edge has a zero within one step of both ends, and no corner of the cell is further
-// than sqrt(3) < 2 steps from that zero.
+// A cell of the grid that the zero set cuts has all eight corners in the band as long as the field
+// is 1-Lipschitz: a cut edge has a zero within one step of both ends, and no corner of the cell is
+// further than sqrt(3) < 2 steps from that zero.
 inline constexpr float kBand = 2.0F;
 
 // Values are in grid steps (distance / h), negative inside. Cheap to copy (shares the grid).

@@ -1,5 +1,5 @@
-// The tree behind a SparseField (OpenVDB). Included by the few source files that build or walk fields,
-// never by a public header.
+// The tree behind a SparseField (OpenVDB). Included by the few source files that build or walk
+// fields, never by a public header.
 #pragma once
 
 #include <openvdb/openvdb.h>

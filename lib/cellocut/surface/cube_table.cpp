@@ -27,8 +27,8 @@ struct Segment {
   int face;
 };
 
-// One segment for each run of outside corners around a face: at an ambiguous face each of the two outside
-// corners is cut off by itself, so the inside is joined.
+// One segment for each run of outside corners around a face: at an ambiguous face each of the two
+// outside corners is cut off by itself, so the inside is joined.
 std::vector<Segment> face_segments(int pattern) {
   std::vector<Segment> segments;
   const auto inside = [&](int corner) { return ((pattern >> corner) & 1) != 0; };
@@ -77,12 +77,12 @@ int find_apex(const std::vector<Segment>& loop) {
 }
 
 void add_triangle(CubeCase& cube, int a, int b, int c) {
-  cube.triangles.push_back({static_cast<std::uint8_t>(a), static_cast<std::uint8_t>(b),
-                            static_cast<std::uint8_t>(c)});
+  cube.triangles.push_back(
+      {static_cast<std::uint8_t>(a), static_cast<std::uint8_t>(b), static_cast<std::uint8_t>(c)});
 }
 
-// A disk that the loop bounds: a fan from a loop vertex where one sees the rest of the loop, from an inner
-// point otherwise.
+// A disk that the loop bounds: a fan from a loop vertex where one sees the rest of the loop, from
+// an inner point otherwise.
 void add_disk(CubeCase& cube, const std::vector<Segment>& loop) {
   const int n = static_cast<int>(loop.size());
   const int apex = find_apex(loop);
@@ -99,15 +99,15 @@ void add_disk(CubeCase& cube, const std::vector<Segment>& loop) {
   }
 }
 
-// The tube between two opposite inside corners: each segment of one loop with the vertex of the other
-// loop on the edge along the third axis.
+// The tube between two opposite inside corners: each segment of one loop with the vertex of the
+// other loop on the edge along the third axis.
 void add_tube(CubeCase& cube, const std::vector<Segment>& one, const std::vector<Segment>& other) {
   for (const auto& [loop, opposite] : {std::pair(&one, &other), std::pair(&other, &one)}) {
     for (const Segment& segment : *loop) {
       const int third_axis = 3 - edge_axis(segment.from) - edge_axis(segment.to);
-      const auto across =
-          std::find_if(opposite->begin(), opposite->end(),
-                       [&](const Segment& s) { return edge_axis(s.from) == third_axis; });
+      const auto across = std::find_if(opposite->begin(), opposite->end(), [&](const Segment& s) {
+        return edge_axis(s.from) == third_axis;
+      });
       add_triangle(cube, segment.from, segment.to, across->from);
     }
   }

@@ -9,7 +9,8 @@
 namespace cellocut {
 
 // Corner c of a cell has the offset (c & 1, (c >> 1) & 1, c >> 2).
-// Edge e runs along axis e / 4, from the corner edge_low_corner(e) to that corner + 1 along the axis.
+// Edge e runs along axis e / 4, from the corner edge_low_corner(e) to that corner + 1 along the
+// axis.
 constexpr int edge_axis(int edge) { return edge / 4; }
 constexpr int edge_low_corner(int edge) {
   // The two other axes take the two low bits of the edge's number.
@@ -30,7 +31,8 @@ inline constexpr std::uint8_t kInnerPoint = 12;
 
 struct CubeCase {
   std::vector<std::array<std::uint8_t, 3>> triangles;  // normal from inside to outside
-  std::vector<std::uint8_t> inner_loop;  // edges whose vertices' mean is the inner point; mostly empty
+  std::vector<std::uint8_t>
+      inner_loop;  // edges whose vertices' mean is the inner point; mostly empty
 };
 
 // Indexed by the pattern: bit c is set where corner c is inside.

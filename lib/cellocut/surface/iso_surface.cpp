@@ -13,8 +13,8 @@ namespace cellocut {
 
 namespace {
 
-constexpr int kEdge = kLeafEdge;              // 8 grid points along a block
-constexpr int kPadded = kEdge + 1;            // with the first layer of the next block
+constexpr int kEdge = kLeafEdge;    // 8 grid points along a block
+constexpr int kPadded = kEdge + 1;  // with the first layer of the next block
 constexpr int kPoints = kEdge * kEdge * kEdge;
 constexpr std::uint32_t kNoBlock = 0xFFFFFFFFU;
 
@@ -39,8 +39,8 @@ class BlockMask {
   std::array<std::uint64_t, 8> words_{};
 };
 
-// A block and what it owns: the vertices on grid edges that start in it, in the order x-edges, y-edges,
-// z-edges, then the inner points of its cells.
+// A block and what it owns: the vertices on grid edges that start in it, in the order x-edges,
+// y-edges, z-edges, then the inner points of its cells.
 struct Block {
   const FieldLeaf* leaf = nullptr;
   openvdb::Coord low;
@@ -86,8 +86,8 @@ struct PaddedValues {
     }
   }
 
-  // The sign pattern of the cell at (x, y, z), or 0 where the zero set does not pass through it: a cell
-  // that it does pass through has all corners in the band.
+  // The sign pattern of the cell at (x, y, z), or 0 where the zero set does not pass through it: a
+  // cell that it does pass through has all corners in the band.
   [[nodiscard]] int pattern(int x, int y, int z) const {
     int inside = 0;
     for (int c = 0; c < 8; ++c) {
@@ -121,8 +121,8 @@ std::vector<Block> list_blocks(const FieldTree& tree) {
   }
   tbb::parallel_for(std::size_t{0}, blocks.size(), [&](std::size_t b) {
     for (int n = 0; n < 8; ++n) {
-      const FieldLeaf* leaf = tree.probeConstLeaf(blocks[b].low.offsetBy(
-          (n & 1) * kEdge, ((n >> 1) & 1) * kEdge, (n >> 2) * kEdge));
+      const FieldLeaf* leaf = tree.probeConstLeaf(
+          blocks[b].low.offsetBy((n & 1) * kEdge, ((n >> 1) & 1) * kEdge, (n >> 2) * kEdge));
       blocks[b].next[n] = leaf == nullptr ? kNoBlock : number.at(leaf);
     }
   });
@@ -234,9 +234,8 @@ TriangleSoup extract_iso_surface(const SparseField& field) {
 }
 
 void to_input_units(TriangleSoup& surface, const Frame& frame) {
-  tbb::parallel_for(std::size_t{0}, surface.points.size(), [&](std::size_t i) {
-    surface.points[i] = frame.to_input(surface.points[i]);
-  });
+  tbb::parallel_for(std::size_t{0}, surface.points.size(),
+                    [&](std::size_t i) { surface.points[i] = frame.to_input(surface.points[i]); });
 }
 
 }  // namespace cellocut

@@ -6,8 +6,12 @@
 
 #include <cmath>
 #include <functional>
+#include <random>
 
 #include "cellocut/field/distance_field.h"
+#include "cellocut/proxy/decimation.h"
+#include "cellocut/proxy/nearest_vertex.h"
+#include "cellocut/proxy/refinement.h"
 #include "cellocut/surface/iso_surface.h"
 #include "support/defective_meshes.h"
 
@@ -90,6 +94,89 @@ TEST(Proxy, HasNoPointThatNoFaceUses) {
     for (const std::uint32_t corner : face) used.at(corner) = true;
   }
   EXPECT_EQ(std::count(used.begin(), used.end(), false), 0);
+}
+
+TEST(Proxy, SplitsACoarseCoverUntilItIsClose) {
+  const Thickened t = thicken(test::icosphere(5, 1, {0, 0, 0}), 3.0);
+  // A cover of the outer sphere and of the inner by far too few faces.
+  const std::vector<Triangle> coarse = decimate(t.surface, 0.99, 2.0);
+  ASSERT_LT(coarse.size(), t.surface.triangles.size() / 60);
+  const Refinement refined =
+      refine_to_surface(t.surface, coarse, t.phi, kProxyTolerance, silent_observer());
+  EXPECT_LE(refined.largest_distance, kProxyTolerance);
+  EXPECT_GT(refined.faces.size(), coarse.size());
+  EXPECT_LT(refined.faces.size(), t.surface.triangles.size() / 4);
+  // It is still a cover: directions from the centre meet both spheres.
+  std::mt19937 random(7);
+  std::normal_distribution<double> normal;
+  const Point3 centre = t.frame.to_index({0, 0, 0});
+  for (int n = 0; n < 200; ++n) {
+    const Point3 direction{normal(random), normal(random), normal(random)};
+    const auto hits =
+        std::count_if(refined.faces.begin(), refined.faces.end(), [&](const Triangle& face) {
+          std::array<double, 3> volume{};
+          for (int k = 0; k < 3; ++k) {
+            const Point3 a = t.surface.points[face[k]] - centre;
+            const Point3 b = t.surface.points[face[(k + 1) % 3]] - centre;
+            volume[k] = dot(direction, cross(a, b));
+          }
+          const auto same = [&](double sign) {
+            return std::all_of(volume.begin(), volume.end(),
+                               [sign](double v) { return sign * v > 0; });
+          };
+          const Point3& corner = t.surface.points[face[0]];
+          return dot(corner - centre, direction) > 0 && (same(1) || same(-1));
+        });
+    EXPECT_GE(hits, 2);
+  }
+}
+
+TEST(Proxy, DecimationKeepsCornersOfTheSurface) {
+  const Thickened t = thicken(test::tilted_sheet({1, 2, 3}, 1, 1), 1.0);
+  const std::vector<Triangle> faces = decimate(t.surface, 0.95, kProxyTolerance);
+  EXPECT_LE(faces.size(), t.surface.triangles.size() / 10);
+  EXPECT_GE(faces.size(), t.surface.triangles.size() / 25);
+  for (const Triangle& face : faces) {
+    for (const std::uint32_t corner : face) ASSERT_LT(corner, t.surface.points.size());
+    EXPECT_NE(face[0], face[1]);
+    EXPECT_NE(face[1], face[2]);
+    EXPECT_NE(face[2], face[0]);
+  }
+  EXPECT_EQ(decimate(t.surface, 0, kProxyTolerance), t.surface.triangles);
+}
+
+TEST(NearestVertex, EqualsBruteForce) {
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> place(0, 12);
+  std::vector<Point3> points;
+  for (int i = 0; i < 700; ++i) points.push_back({place(random), place(random), place(random)});
+  points.push_back(points[3]);  // a tie: the lower index wins
+  const NearestVertex nearest(points);
+  for (int n = 0; n < 500; ++n) {
+    const Point3 p{place(random), place(random), place(random)};
+    std::array<std::uint32_t, 2> excluded{NearestVertex::kNone, NearestVertex::kNone};
+    for (std::uint32_t& next : excluded) {
+      std::uint32_t expected = NearestVertex::kNone;
+      for (std::uint32_t i = 0; i < points.size(); ++i) {
+        if (i == excluded[0] || i == excluded[1]) continue;
+        if (expected == NearestVertex::kNone ||
+            squared_norm(points[i] - p) < squared_norm(points[expected] - p)) {
+          expected = i;
+        }
+      }
+      ASSERT_LT(squared_norm(points[expected] - p), 4.0);
+      const std::uint32_t found = nearest(p, excluded);
+      EXPECT_EQ(found, expected);
+      next = found;
+    }
+  }
+}
+
+TEST(NearestVertex, FindsNothingFarAway) {
+  const std::vector<Point3> points{{1, 1, 1}, {9, 9, 9}};
+  const NearestVertex nearest(points);
+  EXPECT_EQ(nearest({5, 5, 5}, {}), NearestVertex::kNone);
+  EXPECT_EQ(nearest({1.5, 1, 1}, std::array<std::uint32_t, 1>{0}), NearestVertex::kNone);
 }
 
 }  // namespace

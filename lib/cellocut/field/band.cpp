@@ -75,8 +75,9 @@ class Descent {
     double lower = closest;
     narrowed.clear();
     for (const std::uint32_t t : candidates) {
-      // No point of the node is further from the triangles than closest + radius.
-      const double reach = closest + radius + balls_[t].radius + kSlack;
+      // No point of the node is further from the triangles than closest + radius, and none that is
+      // further than the band reaches needs to know its distance.
+      const double reach = std::min(closest + radius, offset_ + kBand) + balls_[t].radius + kSlack;
       const Point3 offset = balls_[t].centre - centre;
       const Point3 beyond{std::max(std::abs(offset[0]) - half, 0.0),
                           std::max(std::abs(offset[1]) - half, 0.0),
@@ -91,7 +92,7 @@ class Descent {
       lower = std::min(lower, bound);
       narrowed.push_back(t);
     }
-    if (lower - offset_ > radius + kBand + kSlack) return Place::outside;
+    if (narrowed.empty() || lower - offset_ > radius + kBand + kSlack) return Place::outside;
     if (closest - offset_ < -(radius + kBand + kSlack)) return Place::inside;
     return Place::band;
   }
@@ -160,33 +161,15 @@ class Descent {
 
   void evaluate(FieldLeaf& leaf, const openvdb::Coord& low, int edge,
                 const Candidates& candidates) const {
+    // The closest at one grid point is often the closest at the next, and else a good bound.
+    std::uint32_t winner = candidates.front();
     for (int x = 0; x < edge; ++x) {
       for (int y = 0; y < edge; ++y) {
         for (int z = 0; z < edge; ++z) {
           const openvdb::Coord at = low.offsetBy(x, y, z);
           const Point3 p{static_cast<double>(at.x()), static_cast<double>(at.y()),
                          static_cast<double>(at.z())};
-          double nearest = std::numeric_limits<double>::infinity();
-          std::uint32_t winner = candidates.front();
-          for (const std::uint32_t t : candidates) {
-            const double to_centre = squared_norm(p - balls_[t].centre);
-            if (to_centre < nearest) {
-              nearest = to_centre;
-              winner = t;
-            }
-          }
-          double squared = triangles_[winner].squared_distance(p);
-          double distance = std::sqrt(squared);
-          for (const std::uint32_t t : candidates) {
-            const double reach = distance + balls_[t].radius + kSlack;
-            if (t == winner || squared_norm(p - balls_[t].centre) > reach * reach) continue;
-            const double candidate = triangles_[t].squared_distance(p);
-            if (candidate < squared) {
-              squared = candidate;
-              distance = std::sqrt(squared);
-            }
-          }
-          const float phi = static_cast<float>(distance - offset_);
+          const float phi = static_cast<float>(distance(p, candidates, winner) - offset_);
           if (std::fabs(phi) < kBand) {
             leaf.setValueOn(at, phi);
           } else if (phi < 0) {
@@ -195,6 +178,23 @@ class Descent {
         }
       }
     }
+  }
+
+  // The distance of p from the closest candidate, which becomes the winner; it is tried first.
+  double distance(const Point3& p, const Candidates& candidates, std::uint32_t& winner) const {
+    double squared = triangles_[winner].squared_distance(p);
+    double distance = std::sqrt(squared);
+    for (const std::uint32_t t : candidates) {
+      const double reach = distance + balls_[t].radius + kSlack;
+      if (squared_norm(p - balls_[t].centre) > reach * reach) continue;
+      const double candidate = triangles_[t].squared_distance(p);
+      if (candidate < squared) {
+        squared = candidate;
+        distance = std::sqrt(squared);
+        winner = t;
+      }
+    }
+    return distance;
   }
 
   const std::vector<DistanceTriangle>& triangles_;

@@ -32,9 +32,28 @@ class FieldSampler {
     const double z = p[2] - floor[2];
     const openvdb::Coord o(static_cast<int>(floor[0]), static_cast<int>(floor[1]),
                            static_cast<int>(floor[2]));
+    constexpr int kLast = kLeafEdge - 1;
+    const bool one_leaf =
+        (o.x() & kLast) != kLast && (o.y() & kLast) != kLast && (o.z() & kLast) != kLast;
+    if (!one_leaf) {
+      return interpolate(x, y, z, [&](int dx, int dy, int dz) {
+        return accessor_.getValue(o.offsetBy(dx, dy, dz));
+      });
+    }
+    const FieldLeaf* leaf = accessor_.probeConstLeaf(o);
+    if (leaf == nullptr) return accessor_.getValue(o);  // a tile has one value
+    const float* values = leaf->buffer().data() + FieldLeaf::coordToOffset(o);
+    return interpolate(x, y, z, [&](int dx, int dy, int dz) {
+      return values[(dx * kLeafEdge + dy) * kLeafEdge + dz];
+    });
+  }
+
+ private:
+  template <class Corner>
+  static double interpolate(double x, double y, double z, const Corner& corner) {
     const auto edge = [&](int dy, int dz) {
-      const double a = accessor_.getValue(o.offsetBy(0, dy, dz));
-      const double b = accessor_.getValue(o.offsetBy(1, dy, dz));
+      const double a = corner(0, dy, dz);
+      const double b = corner(1, dy, dz);
       return a + x * (b - a);
     };
     const double y0 = edge(0, 0) + y * (edge(1, 0) - edge(0, 0));
@@ -42,7 +61,6 @@ class FieldSampler {
     return y0 + z * (y1 - y0);
   }
 
- private:
   openvdb::tree::ValueAccessor<const FieldTree> accessor_;
 };
 

@@ -1,9 +1,13 @@
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <limits>
 #include <string>
+#include <vector>
 
 #include "cellocut/base/errors.h"
 #include "cellocut/mesh/byte_order.h"
@@ -40,18 +44,50 @@ void append_triangle(std::string& bytes, const char* prefix, const Triangle& tri
   bytes += '\n';
 }
 
+// Appends `append(bytes, i)` for each i below count, in order; made in parallel.
+template <class Append>
+void append_all(std::string& bytes, std::size_t count, const Append& append) {
+  constexpr std::size_t kChunk = 1 << 15;
+  std::vector<std::string> chunks((count + kChunk - 1) / kChunk);
+  tbb::parallel_for(std::size_t{0}, chunks.size(), [&](std::size_t c) {
+    for (std::size_t i = c * kChunk; i < std::min(count, (c + 1) * kChunk); ++i) {
+      append(chunks[c], i);
+    }
+  });
+  std::size_t size = bytes.size();
+  for (const std::string& chunk : chunks) size += chunk.size();
+  bytes.reserve(size);
+  for (std::string& chunk : chunks) {
+    bytes += chunk;
+    std::string().swap(chunk);
+  }
+}
+
+void append_points(std::string& bytes, const char* prefix, const TriangleSoup& mesh) {
+  append_all(bytes, mesh.points.size(), [&](std::string& chunk, std::size_t i) {
+    append_point(chunk, prefix, mesh.points[i]);
+  });
+}
+
+void append_triangles(std::string& bytes, const char* prefix, const TriangleSoup& mesh,
+                      std::uint64_t first_index) {
+  append_all(bytes, mesh.triangles.size(), [&](std::string& chunk, std::size_t f) {
+    append_triangle(chunk, prefix, mesh.triangles[f], first_index);
+  });
+}
+
 std::string encode_obj(const TriangleSoup& mesh) {
   std::string bytes;
-  for (const Point3& point : mesh.points) append_point(bytes, "v ", point);
-  for (const Triangle& triangle : mesh.triangles) append_triangle(bytes, "f ", triangle, 1);
+  append_points(bytes, "v ", mesh);
+  append_triangles(bytes, "f ", mesh, 1);
   return bytes;
 }
 
 std::string encode_off(const TriangleSoup& mesh) {
   std::string bytes = "OFF\n" + std::to_string(mesh.points.size()) + ' ' +
                       std::to_string(mesh.triangles.size()) + " 0\n";
-  for (const Point3& point : mesh.points) append_point(bytes, "", point);
-  for (const Triangle& triangle : mesh.triangles) append_triangle(bytes, "3 ", triangle, 0);
+  append_points(bytes, "", mesh);
+  append_triangles(bytes, "3 ", mesh, 0);
   return bytes;
 }
 
@@ -67,8 +103,8 @@ std::string ply_header(const TriangleSoup& mesh, const char* encoding) {
 
 std::string encode_ply_ascii(const TriangleSoup& mesh) {
   std::string bytes = ply_header(mesh, "ascii");
-  for (const Point3& point : mesh.points) append_point(bytes, "", point);
-  for (const Triangle& triangle : mesh.triangles) append_triangle(bytes, "3 ", triangle, 0);
+  append_points(bytes, "", mesh);
+  append_triangles(bytes, "3 ", mesh, 0);
   return bytes;
 }
 

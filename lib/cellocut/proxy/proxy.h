@@ -15,21 +15,18 @@ namespace cellocut {
 inline constexpr double kProxyTolerance = 0.5;
 
 struct Proxy {
-  // In input units, rounded once to the doubles that files will hold. Need not be manifold: where
-  // decimation went too far, a patch of the full surface stands in for the faces that were dropped.
+  // In input units, rounded once to the doubles that files will hold. Need not be manifold.
   TriangleSoup mesh;
   std::int64_t faces_before = 0;
   double removed_share = 0;         // 1 - faces / faces_before, as reached
   double largest_distance = 0;      // measured max of |phi| over the proxy, in grid steps
-  std::int64_t faces_restored = 0;  // of the full surface, around faces that were too far away
+  std::int64_t faces_restored = 0;  // of the full surface, where nothing less was close enough
 };
 
-// Decimates `surface` (phi = 0 in index coordinates, from extract_iso_surface) by quadrics until
-// `removed_share` of its faces are gone, and measures |phi| over every face on a raster of half a
-// grid step. Faces further away than kProxyTolerance are dropped, and the full surface around them
-// is decimated again with less error; what is still too far away in the end is taken from the
-// full surface as it is. So the distance wins over the share, and only where it has to.
-// Preconditions: removed_share in [0, 0.99]. Errors: Cancelled.
+// Decimates `surface` (phi = 0 in index coordinates, from extract_iso_surface) until
+// `removed_share` of its faces are gone, and splits faces that went further from phi = 0 than
+// kProxyTolerance: the distance wins over the share, and only where it has to. Preconditions:
+// removed_share in [0, 0.99]. Errors: Cancelled.
 Proxy make_proxy(const TriangleSoup& surface, const SparseField& phi, const Frame& frame,
                  double removed_share, Observer& observer);
 

@@ -22,21 +22,22 @@ constexpr std::uint32_t kNoBlock = 0xFFFFFFFFU;
 class BlockMask {
  public:
   void set(int n) { words_[n >> 6] |= std::uint64_t{1} << (n & 63); }
+  // To be called once all bits are set, before count_before and count.
+  void number() {
+    for (int w = 0; w < 8; ++w) {
+      before_[w + 1] = static_cast<std::uint16_t>(before_[w] + std::popcount(words_[w]));
+    }
+  }
   [[nodiscard]] int count_before(int n) const {
-    int count = 0;
-    for (int w = 0; w < (n >> 6); ++w) count += std::popcount(words_[w]);
     const std::uint64_t below = (std::uint64_t{1} << (n & 63)) - 1;
-    return count + std::popcount(words_[n >> 6] & below);
+    return before_[n >> 6] + std::popcount(words_[n >> 6] & below);
   }
   [[nodiscard]] bool test(int n) const { return ((words_[n >> 6] >> (n & 63)) & 1) != 0; }
-  [[nodiscard]] int count() const {
-    int count = 0;
-    for (const std::uint64_t word : words_) count += std::popcount(word);
-    return count;
-  }
+  [[nodiscard]] int count() const { return before_[8]; }
 
  private:
   std::array<std::uint64_t, 8> words_{};
+  std::array<std::uint16_t, 9> before_{};  // bits in the words before
 };
 
 // A block and what it owns: the vertices on grid edges that start in it, in the order x-edges,
@@ -145,6 +146,7 @@ void count_block(const std::vector<Block>& blocks, Block& block) {
     block.triangles += cube.triangles.size();
     block.inner_points += cube.inner_loop.empty() ? 0 : 1;
   });
+  for (BlockMask& cut : block.cut) cut.number();
 }
 
 // Number of the vertex on an edge of the cell at (x, y, z), which another block may own.

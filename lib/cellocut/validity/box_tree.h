@@ -47,6 +47,8 @@ class BoxTree {
 
   [[nodiscard]] std::size_t leaf_count() const { return std::size_t{1} << depth_; }
 
+  [[nodiscard]] std::uint32_t first_of_leaf(std::size_t leaf) const { return ids_[begin_of(leaf)]; }
+
   // Calls visit(id, id) once for each pair of overlapping boxes of which one is in `leaf` and the
   // other is in the same or a later leaf; over all leaves that is each overlapping pair once.
   template <class Visit>

@@ -186,8 +186,15 @@ class Search {
       observer_.check();
       PairList& found = found_.local();
       for (std::size_t leaf = range.begin(); leaf < range.end(); ++leaf) {
-        tree.visit_pairs_of_leaf(leaf,
-                                 [&](std::uint32_t f, std::uint32_t g) { test(f, g, found); });
+        std::uint32_t prepared_face = tree.first_of_leaf(leaf);
+        PreparedFace prepared(points_, triangles_[prepared_face]);
+        tree.visit_pairs_of_leaf(leaf, [&](std::uint32_t f, std::uint32_t g) {
+          if (f != prepared_face) {
+            prepared_face = f;
+            prepared = PreparedFace(points_, triangles_[f]);
+          }
+          if (!prepared.certainly_apart(points_, triangles_[g])) test(f, g, found);
+        });
       }
       const double share =
           static_cast<double>(range.size()) / static_cast<double>(tree.leaf_count());

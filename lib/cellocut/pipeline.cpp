@@ -102,9 +102,9 @@ RemeshResult remesh(const TriangleSoup& input, const RemeshOptions& options,
   result.frame =
       make_frame(bounding_box(input), options.resolution, result.derived.epsilon_steps + kBand + 1);
   result.phi = stage("field", [&] { return compute_phi(input, options, result, observer); });
-  const TriangleSoup thick = stage("iso-surface", [&] { return extract_iso_surface(result.phi); });
+  TriangleSoup thick = stage("iso-surface", [&] { return extract_iso_surface(result.phi); });
   result.proxy = stage("decimation", [&] {
-    return make_proxy(thick, result.phi, result.frame, options.decimate, observer);
+    return make_proxy(std::move(thick), result.phi, result.frame, options.decimate, observer);
   });
   if (result.proxy.mesh.empty()) return result;
   result.complex = stage("tetrahedralization",

@@ -112,7 +112,7 @@ void for_each_grid_point(const SparseField& field, const Frame& frame, const Vis
   }
 }
 
-constexpr double kTolerance = 1e-5;
+constexpr double kTolerance = 0x1p-15 + 1e-6;  // rounding to the quantum, and of floats
 
 TEST(DistanceField, EqualsBruteForceAndStoresTheBandExactly) {
   for (std::uint64_t seed = 0; seed < 6; ++seed) {

@@ -15,6 +15,14 @@ namespace {
 // Covers the rounding of distances in index coordinates (below 1e-9 for grids of up to 1e5 steps).
 constexpr double kSlack = 1e-7;
 
+// Rounds to odd multiples of 2^-15, for |x| < 2^37 (the first sum has 2^-14 for its last place). An
+// input that is scaled or moved has distances that differ in their last bits; so rounded they are
+// the same, and with them all that follows. None is zero: no grid point lies on the zero set.
+double to_quantum(double x) {
+  constexpr double kShift = 0x1.8p38;
+  return ((x - 0x1p-15) + kShift) - kShift + 0x1p-15;
+}
+
 using Candidates = std::vector<std::uint32_t>;
 
 // Holds a triangle.
@@ -169,7 +177,8 @@ class Descent {
           const openvdb::Coord at = low.offsetBy(x, y, z);
           const Point3 p{static_cast<double>(at.x()), static_cast<double>(at.y()),
                          static_cast<double>(at.z())};
-          const float phi = static_cast<float>(distance(p, candidates, winner) - offset_);
+          const auto phi =
+              static_cast<float>(to_quantum(distance(p, candidates, winner) - offset_));
           if (std::fabs(phi) < kBand) {
             leaf.setValueOn(at, phi);
           } else if (phi < 0) {

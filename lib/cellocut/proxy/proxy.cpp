@@ -1,11 +1,34 @@
 #include "cellocut/proxy/proxy.h"
 
+#include <tbb/parallel_for.h>
+
+#include <bit>
+
 #include "cellocut/proxy/decimation.h"
 #include "cellocut/proxy/refinement.h"
 
 namespace cellocut {
 
 namespace {
+
+// The finaliser of SplitMix64 (Steele, Lea, Flood, "Fast splittable pseudorandom number
+// generators", 2014).
+std::uint64_t mix(std::uint64_t x) {
+  x = (x ^ (x >> 30)) * 0xBF58476D1CE4E5B9U;
+  x = (x ^ (x >> 27)) * 0x94D049BB133111EBU;
+  return x ^ (x >> 31);
+}
+
+Point3 break_ties(const Point3& p) {
+  std::uint64_t hash = 0;
+  for (const double x : p) hash = mix(hash + 0x9E3779B97F4A7C15U + std::bit_cast<std::uint64_t>(x));
+  Point3 moved = p;
+  for (double& x : moved) {
+    hash = mix(hash + 0x9E3779B97F4A7C15U);
+    x += kTieBreak * (static_cast<double>(hash >> 11) * 0x1p-52 - 1);  // a share in [-1, 1)
+  }
+  return moved;
+}
 
 // The points that faces use, in their order, and the faces renumbered.
 TriangleSoup drop_unused_points(const std::vector<Point3>& points,
@@ -29,11 +52,13 @@ TriangleSoup drop_unused_points(const std::vector<Point3>& points,
 
 }  // namespace
 
-Proxy make_proxy(const TriangleSoup& surface, const SparseField& phi, const Frame& frame,
+Proxy make_proxy(TriangleSoup surface, const SparseField& phi, const Frame& frame,
                  double removed_share, Observer& observer) {
   Proxy proxy;
   proxy.faces_before = static_cast<std::int64_t>(surface.triangles.size());
   if (surface.empty()) return proxy;
+  tbb::parallel_for(std::size_t{0}, surface.points.size(),
+                    [&](std::size_t i) { surface.points[i] = break_ties(surface.points[i]); });
   const Refinement refined = refine_to_surface(
       surface, decimate(surface, removed_share, kProxyTolerance), phi, kProxyTolerance, observer);
   proxy.largest_distance = refined.largest_distance;

@@ -55,13 +55,17 @@ Arguments parse(int argc, char** argv) {
   return a;
 }
 
-// Every exact solver on the problem of `result`; what disagrees, or nothing.
-std::string disagreement(const RemeshResult& result, const RemeshOptions& options) {
+// Every exact solver on the problem of `result`; what disagrees, or nothing. `times` says what each
+// took.
+std::string disagreement(const RemeshResult& result, const RemeshOptions& options,
+                         std::string& times) {
+  times = "  build and solve, s:";
   for (const Variant<CutSolver>& variant : solvers::registered()) {
     if (variant.make == nullptr) continue;
     const std::unique_ptr<CutSolver> solver = variant.make();
     if (!solver->info().exact) continue;
     const CutResult cut = solver->solve(result.graph.problem);
+    times += fmt::format(" {} {:.3f} + {:.3f}", variant.name, cut.build_seconds, cut.solve_seconds);
     if (cut.status != CutStatus::optimal) return variant.name + ": " + cut.message;
     if (cut.value != result.cut.value) return variant.name + ": another value";
     if (cut.smallest_source_side != result.cut.smallest_source_side ||
@@ -129,9 +133,10 @@ bool run_mesh(const std::filesystem::path& path, const RemeshOptions& options) {
     const std::unique_ptr<CutSolver> solver = solvers::make("bk");
     RemeshResult result = remesh(input, options, *tetrahedralizer, *solver);
     const double seconds = stopwatch.seconds();
+    std::string times;
     std::string defect = surface_defect(result);
     if (!result.certificate.valid) defect = "the certificate fails";
-    if (defect.empty()) defect = disagreement(result, options);
+    if (defect.empty()) defect = disagreement(result, options, times);
     passed = passed && defect.empty();
     const SurfaceReport& report = result.surface_report;
     fmt::print("{:<40} {:<7} {:>8} {:>8} {:>16} {:>8} {:>5} {:>11.5g} {:>6.2f} {:>6.3f}  {}\n",
@@ -139,6 +144,7 @@ bool run_mesh(const std::filesystem::path& path, const RemeshOptions& options) {
                result.graph.problem.node_count(), result.cut.value, report.triangles,
                report.components.size(), report.volume, seconds, result.proxy.largest_distance,
                defect.empty() ? "ok" : defect);
+    if (!times.empty()) fmt::print("{:<40}{}\n", "", times);
     std::fflush(stdout);
     results.emplace_back(backend.name, std::move(result));
   }

@@ -3,7 +3,8 @@ include(CMakePackageConfigHelpers)
 
 # The public headers are these and whatever of ours they include: nothing that a user needs is forgotten,
 # nothing internal is shipped.
-set(_cellocut_entry_headers solvers/solvers.h)
+set(_cellocut_entry_headers solvers/solvers.h solvers/comparison.h cellocut/cut/problem_file.h
+  cellocut/cut/problem_statistics.h)
 if(NOT CELLOCUT_SOLVERS_ONLY)
   list(APPEND _cellocut_entry_headers
     cellocut/pipeline.h cellocut/base/atomic_file.h cellocut/base/predicates.h

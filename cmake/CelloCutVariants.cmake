@@ -7,7 +7,7 @@
 # would be dropped by the linker when it sits in a static library.
 
 function(_cellocut_add_variant kind name)
-  cmake_parse_arguments(ARG "" "SOURCE;PACKAGE;IF" "LINK" ${ARGN})
+  cmake_parse_arguments(ARG "" "PACKAGE;IF" "SOURCE;LINK" ${ARGN})
   set(reason "")
   if(ARG_IF AND NOT ${ARG_IF})
     set(reason "${ARG_IF} is OFF")

@@ -21,5 +21,7 @@ Command add_remesh(CLI::App& program);
 Command add_check(CLI::App& program);
 Command add_list(CLI::App& program);
 Command add_section(CLI::App& program);
+Command add_solve(CLI::App& program);
+Command add_compare(CLI::App& program);
 
 }  // namespace cellocut::tools

@@ -16,7 +16,8 @@ int main(int argc, char** argv) {
   program.name("cellocut");
   program.set_version_flag("--version", kCellocutVersion);
   program.require_subcommand(1);
-  std::vector<Command> commands{add_remesh(program), add_check(program), add_list(program)};
+  std::vector<Command> commands{add_remesh(program), add_compare(program), add_solve(program),
+                                add_check(program), add_list(program)};
 #ifdef CELLOCUT_WITH_VIZ
   commands.push_back(add_section(program));
 #endif

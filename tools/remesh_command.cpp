@@ -11,6 +11,8 @@
 #include "solvers/solvers.h"
 #include "tools/commands.h"
 #include "tools/exit_code.h"
+#include "tools/pipeline_arguments.h"
+#include "tools/problem_io.h"
 #include "tools/report_json.h"
 #include "tools/session.h"
 #ifdef CELLOCUT_WITH_VIZ
@@ -29,15 +31,15 @@ struct RemeshArguments {
   std::string output_format;
   std::string backend = "cgal";
   std::string solver = "bk";
-  std::string lambda = "20";
-  std::string exterior = "unbounded";
   std::string cut = "largest";
   std::string surface = "sdf";
   std::string vtu;
   std::string keep_invalid;
-  bool no_thickening = false;
-  bool no_unary = false;
-  RemeshOptions options;
+  std::string problem;
+  PipelineArguments pipeline;
+
+  [[nodiscard]] RemeshOptions& options() { return pipeline.options; }
+  [[nodiscard]] const RemeshOptions& options() const { return pipeline.options; }
 };
 
 void add_arguments(CLI::App& app, RemeshArguments& a) {
@@ -53,29 +55,7 @@ void add_arguments(CLI::App& app, RemeshArguments& a) {
       ->capture_default_str();
   app.add_option("--solver", a.solver, "Minimum-cut solver (see cellocut list)")
       ->capture_default_str();
-  app.add_option("-R,--resolution", a.options.resolution,
-                 "Grid steps along the longest edge of the box, 8 to 16384")
-      ->capture_default_str();
-  auto* epsilon =
-      app.add_option("--epsilon", a.options.epsilon,
-                     "Thickening offset relative to the longest edge (default: max(1/512, "
-                     "1/resolution))");
-  app.add_option("--epsilon-abs", a.options.epsilon_absolute, "Thickening offset in input units")
-      ->excludes(epsilon);
-  app.add_option("--decimate", a.options.decimate,
-                 "Share of the proxy's faces to remove, 0 to 0.99")
-      ->capture_default_str();
-  app.add_option("--lambda-fill", a.lambda,
-                 "Weight of an unsupported interface: a number or p/q, terms up to 2^20")
-      ->capture_default_str();
-  app.add_option("--exterior", a.exterior,
-                 "What is fixed exterior: the unbounded region, or every hull cell that is not "
-                 "initially interior")
-      ->check(CLI::IsMember({"unbounded", "hull-cells"}))
-      ->capture_default_str();
-  app.add_option("--area-bits", a.options.area_bits,
-                 "Facet areas sum to at most 2^bits quanta, 8 to 50")
-      ->capture_default_str();
+  a.pipeline.add_to(app);
   app.add_option("--cut", a.cut, "Which of the minimum cuts: the smallest or the largest interior")
       ->check(CLI::IsMember({"smallest", "largest"}))
       ->capture_default_str();
@@ -84,14 +64,12 @@ void add_arguments(CLI::App& app, RemeshArguments& a) {
          "sdf: signed distance of the interface, marching cubes; cells: the interface itself")
       ->check(CLI::IsMember({"sdf", "cells"}))
       ->capture_default_str();
-  app.add_option("--min-component", a.options.min_component,
+  app.add_option("--min-component", a.pipeline.options.min_component,
                  "Drop components below this share of the total volume, 0 to 1")
       ->capture_default_str();
-  app.add_flag("--no-thickening", a.no_thickening,
-               "Ablation: phi is the flood-signed distance, no offset");
-  app.add_flag("--no-unary", a.no_unary, "Ablation: no cell is anchored interior");
   app.add_option("--keep-invalid", a.keep_invalid,
                  "Where a surface goes that fails its check (it never replaces the output)");
+  app.add_option("--problem", a.problem, "The cut problem: .max (DIMACS) or .bbk");
 #ifdef CELLOCUT_WITH_VIZ
   app.add_option("--vtu", a.vtu, "Labelled tetrahedra for ParaView");
 #endif
@@ -99,17 +77,9 @@ void add_arguments(CLI::App& app, RemeshArguments& a) {
 }
 
 void complete_options(RemeshArguments& a) {
-  try {
-    a.options.lambda_fill = parse_rational(a.lambda);
-  } catch (const UsageError& error) {
-    throw UsageError(std::string("--lambda-fill: ") + error.what());
-  }
-  a.options.exterior =
-      a.exterior == "unbounded" ? ExteriorMode::unbounded : ExteriorMode::hull_cells;
-  a.options.cut = a.cut == "largest" ? CutChoice::largest : CutChoice::smallest;
-  a.options.surface = a.surface == "sdf" ? SurfaceMode::sdf : SurfaceMode::cells;
-  a.options.thickening = !a.no_thickening;
-  a.options.unary = !a.no_unary;
+  a.pipeline.complete();
+  a.options().cut = a.cut == "largest" ? CutChoice::largest : CutChoice::smallest;
+  a.options().surface = a.surface == "sdf" ? SurfaceMode::sdf : SurfaceMode::cells;
   const std::optional<MeshFormat> format =
       a.output_format.empty() ? format_of_path(a.output) : format_of_name(a.output_format);
   if (!format) {
@@ -117,9 +87,12 @@ void complete_options(RemeshArguments& a) {
                      ": the output's format is not told by its name; use .obj, .off, .ply or .stl, "
                      "or --output-format");
   }
-  a.options.output_format = *format;
-  a.options.validate();
-  require_writable({a.output, a.vtu, a.common.json, a.keep_invalid});
+  a.options().output_format = *format;
+  a.options().validate();
+  if (!a.problem.empty() && !problem_format_of_path(a.problem)) {
+    throw UsageError(a.problem + ": the cut problem is written as .max or .bbk");
+  }
+  require_writable({a.output, a.vtu, a.common.json, a.keep_invalid, a.problem});
 }
 
 void print_summary(const RemeshResult& result, const RemeshArguments& a, double read_seconds,
@@ -183,8 +156,8 @@ Verdict judge(const RemeshResult& result, const RemeshArguments& a) {
     return {kNoGuarantee, a.input + ": no cell is interior, there is no solid to write"};
   }
   if (!result.surface_report.valid()) {
-    const bool stl = a.options.output_format == MeshFormat::stl ||
-                     a.options.output_format == MeshFormat::stl_ascii;
+    const bool stl = a.options().output_format == MeshFormat::stl ||
+                     a.options().output_format == MeshFormat::stl_ascii;
     return {
         kNoGuarantee,
         a.output + ": not written, the surface would not be valid (" +
@@ -206,16 +179,19 @@ int run_remesh(RemeshArguments& a) {
   const TriangleSoup input = read_input(a.input, a.input_format);
   const double read_seconds = stopwatch.seconds();
 
-  const RemeshResult result = remesh(input, a.options, *tetrahedralizer, *solver, observer);
+  const RemeshResult result = remesh(input, a.options(), *tetrahedralizer, *solver, observer);
 
   stopwatch.restart();
   observer.check();
   observer.stage("write");
   const auto [code, problem] = judge(result, a);
 #ifdef CELLOCUT_WITH_VIZ
-  if (!a.vtu.empty()) write_text(a.vtu, encode_vtu(labelled_cells(result, a.options, a.solver)));
+  if (!a.vtu.empty()) write_text(a.vtu, encode_vtu(labelled_cells(result, a.options(), a.solver)));
 #endif
-  if (code == kDone) write_mesh(result.surface, a.output, a.options.output_format);
+  if (!a.problem.empty() && !result.graph.decided.empty()) {
+    write_problem(result.graph.problem, a.problem, *problem_format_of_path(a.problem));
+  }
+  if (code == kDone) write_mesh(result.surface, a.output, a.options().output_format);
   if (code != kDone && !a.keep_invalid.empty() && !result.surface.empty()) {
     write_mesh(result.surface, a.keep_invalid,
                format_of_path(a.keep_invalid).value_or(MeshFormat::obj));
@@ -227,7 +203,7 @@ int run_remesh(RemeshArguments& a) {
                          a.backend,       a.solver,
                          limit.threads(), read_seconds,
                          write_seconds};
-    write_text(a.common.json, remesh_json(result, a.options, input, facts).dump(2) + "\n");
+    write_text(a.common.json, remesh_json(result, a.options(), input, facts).dump(2) + "\n");
   }
   if (code != kDone) {
     print_error(problem);

@@ -91,8 +91,9 @@ bool RemeshResult::empty_solid() const {
 }
 
 // The paper's Algorithm 1, line by line.
-RemeshResult remesh(const TriangleSoup& input, const RemeshOptions& options,
-                    const Tetrahedralizer& tetrahedralizer, CutSolver& solver, Observer& observer) {
+
+RemeshResult pose_cut(const TriangleSoup& input, const RemeshOptions& options,
+                      const Tetrahedralizer& tetrahedralizer, Observer& observer) {
   options.validate();
   RemeshResult result;
   StageClock stage(result.stages, observer);
@@ -125,22 +126,45 @@ RemeshResult remesh(const TriangleSoup& input, const RemeshOptions& options,
     return build_cell_graph(result.complex, result.facets, result.areas, result.initial_label,
                             result.anchors, options.lambda_fill);
   });
+  return result;
+}
 
-  // Stage 3: optimization and extraction.
-  result.cut = stage("minimum cut", [&] {
-    return solver.solve(result.graph.problem, SolveOptions{.observer = &observer});
-  });
-  if (result.cut.status == CutStatus::invalid) return result;
-  result.smallest_interior = expand_labels(result.graph, result.cut.smallest_source_side);
-  result.largest_interior = expand_labels(result.graph, result.cut.largest_source_side);
+void adopt_cut(RemeshResult& result, const RemeshOptions& options, CutResult cut) {
+  result.smallest_interior = expand_labels(result.graph, cut.smallest_source_side);
+  result.largest_interior = expand_labels(result.graph, cut.largest_source_side);
   result.label =
       options.cut == CutChoice::largest ? result.largest_interior : result.smallest_interior;
-  result.certificate = stage("certificate", [&] {
-    result.facet_flow = lift_flow(result.graph, result.facets, result.areas, result.initial_label,
-                                  result.anchors, options.lambda_fill, result.cut.edge_flow);
-    return certify(result, options);
+  result.facet_flow = lift_flow(result.graph, result.facets, result.areas, result.initial_label,
+                                result.anchors, options.lambda_fill, cut.edge_flow);
+  result.cut = std::move(cut);
+  result.certificate = certify(result, options);
+}
+
+void minimise_cut(RemeshResult& result, const RemeshOptions& options, CutSolver& solver,
+                  Observer& observer) {
+  StageClock stage(result.stages, observer);
+  CutResult cut = stage("minimum cut", [&] {
+    return solver.solve(result.graph.problem, SolveOptions{.observer = &observer});
   });
-  if (result.empty_solid()) return result;
+  if (cut.status == CutStatus::invalid) {
+    result.cut = std::move(cut);
+    return;
+  }
+  stage("certificate", [&] {
+    adopt_cut(result, options, std::move(cut));
+    return result.certificate.valid;
+  });
+}
+
+RemeshResult remesh(const TriangleSoup& input, const RemeshOptions& options,
+                    const Tetrahedralizer& tetrahedralizer, CutSolver& solver, Observer& observer) {
+  RemeshResult result = pose_cut(input, options, tetrahedralizer, observer);
+  if (result.proxy.mesh.empty()) return result;
+
+  // Stage 3: optimization and extraction.
+  minimise_cut(result, options, solver, observer);
+  if (result.cut.status == CutStatus::invalid || result.empty_solid()) return result;
+  StageClock stage(result.stages, observer);
   result.surface = stage("surface", [&] {
     TriangleSoup surface = extract_surface(result, options.surface, observer);
     result.dropped_components = drop_small_components(surface, options.min_component);

@@ -95,6 +95,22 @@ struct RemeshResult {
   [[nodiscard]] bool empty_solid() const;
 };
 
+// The stages up to the cut problem: result.graph and all that it was made from. Where phi is
+// nowhere negative the proxy is empty and there is no problem. Errors: as remesh().
+RemeshResult pose_cut(const TriangleSoup& input, const RemeshOptions& options,
+                      const Tetrahedralizer& tetrahedralizer,
+                      Observer& observer = silent_observer());
+
+// Labels the cells of a result of pose_cut() by a cut of its problem, lifts the flow to the facets
+// and checks the certificate. May be called again, with another solver's cut.
+// Precondition: cut.status is not `invalid`.
+void adopt_cut(RemeshResult& result, const RemeshOptions& options, CutResult cut);
+
+// Solves the problem of a result of pose_cut() and adopts the cut. Errors: as CutSolver::solve();
+// Cancelled.
+void minimise_cut(RemeshResult& result, const RemeshOptions& options, CutSolver& solver,
+                  Observer& observer = silent_observer());
+
 // Runs all stages. Deterministic: the same bits for any number of threads.
 // A cut that fails its certificate or a surface that fails its check is reported in the result, not
 // thrown; later stages are skipped where an earlier one leaves nothing to work on (an empty solid).

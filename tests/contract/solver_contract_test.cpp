@@ -31,7 +31,7 @@ std::vector<std::string> built_solvers() {
 // so that agreement says something.
 std::string witness_for(const std::string& solver) {
   const std::vector<std::string> built = built_solvers();
-  for (const std::string wanted : {"lemon_preflow", "bk", "push_relabel"}) {
+  for (const std::string wanted : {"lemon_preflow", "bk", "push_relabel", "ibfs"}) {
     if (wanted != solver && std::count(built.begin(), built.end(), wanted) != 0) return wanted;
   }
   return {};
@@ -243,10 +243,10 @@ TEST(SolverTable, ListsEveryVariantOnceBuiltOrWithAReason) {
     EXPECT_TRUE(names.insert(variant.name).second) << variant.name;
     EXPECT_EQ(variant.make == nullptr, !variant.not_built.empty()) << variant.name;
   }
-  for (const char* name : {"bk", "push_relabel", "libmaxflow", "lemon_preflow"}) {
+  for (const char* name : {"bk", "push_relabel", "ibfs", "libmaxflow", "lemon_preflow"}) {
     EXPECT_EQ(names.count(name), 1U) << name;
   }
-  EXPECT_THAT(built_solvers(), ::testing::IsSupersetOf({"bk", "push_relabel"}));
+  EXPECT_THAT(built_solvers(), ::testing::IsSupersetOf({"bk", "push_relabel", "ibfs"}));
 }
 
 TEST(SolverTable, RefusesUnknownNamesAndListsWhatIsBuilt) {

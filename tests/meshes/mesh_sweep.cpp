@@ -103,24 +103,6 @@ double energy(const RemeshResult& result) {
   return static_cast<double>(result.cut.value) / result.areas.scale;
 }
 
-// Cells (as vertex quadruples) of one complex that the other does not have, as a share of all
-// cells.
-double differing_share(const TetComplex& a, const TetComplex& b) {
-  const auto quadruples = [](const TetComplex& complex) {
-    auto cells = complex.cells;
-    for (auto& cell : cells) std::sort(cell.begin(), cell.end());
-    std::sort(cells.begin(), cells.end());
-    return cells;
-  };
-  const auto cells_a = quadruples(a);
-  const auto cells_b = quadruples(b);
-  std::vector<std::array<std::uint32_t, 4>> common;
-  std::set_intersection(cells_a.begin(), cells_a.end(), cells_b.begin(), cells_b.end(),
-                        std::back_inserter(common));
-  return 1 - static_cast<double>(common.size()) /
-                 static_cast<double>(std::max(cells_a.size(), cells_b.size()));
-}
-
 // One mesh on all backends. True where it passes.
 bool run_mesh(const std::filesystem::path& path, const RemeshOptions& options) {
   const TriangleSoup input = read_mesh(path.string());
@@ -154,7 +136,7 @@ bool run_mesh(const std::filesystem::path& path, const RemeshOptions& options) {
     fmt::print("{:<40} between {}: energy differs by {:.2e}, {:.4f} % of the cells differ\n", "",
                results[0].first + " and " + results[1].first,
                std::abs(energy(a) - energy(b)) / energy(a),
-               100 * differing_share(a.complex, b.complex));
+               100 * differing_cell_share(a.complex, b.complex));
   }
   return passed;
 }

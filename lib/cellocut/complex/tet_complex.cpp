@@ -101,4 +101,20 @@ TetComplex make_canonical(std::vector<Point3> points,
   return complex;
 }
 
+double differing_cell_share(const TetComplex& a, const TetComplex& b) {
+  const auto quadruples = [](const TetComplex& complex) {
+    auto cells = complex.cells;
+    for (auto& cell : cells) std::sort(cell.begin(), cell.end());
+    std::sort(cells.begin(), cells.end());
+    return cells;
+  };
+  const auto cells_a = quadruples(a);
+  const auto cells_b = quadruples(b);
+  std::vector<std::array<std::uint32_t, 4>> common;
+  std::set_intersection(cells_a.begin(), cells_a.end(), cells_b.begin(), cells_b.end(),
+                        std::back_inserter(common));
+  return 1 - static_cast<double>(common.size()) /
+                 static_cast<double>(std::max(cells_a.size(), cells_b.size()));
+}
+
 }  // namespace cellocut

@@ -49,4 +49,8 @@ TetComplex make_canonical(std::vector<Point3> points,
                           std::vector<std::array<std::uint32_t, 4>> cells,
                           std::vector<std::uint32_t> first_copy);
 
+// Cells, as sets of four points, that only the complex with more of them has or that are not in
+// both, as a share of its cells; for two complexes of the same points. O(n log n).
+double differing_cell_share(const TetComplex& a, const TetComplex& b);
+
 }  // namespace cellocut

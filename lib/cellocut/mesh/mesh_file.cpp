@@ -1,21 +1,14 @@
-// A mesh file is read whole before it is parsed: plain reads (a mapped file that another program
-// shortens would end the process with SIGBUS), standard input like any file, and exact sizes in
-// messages about truncation. The bytes are freed as soon as the soup is there.
+// A mesh file is read whole before it is parsed; the bytes are freed as soon as the soup is there.
 #include "cellocut/mesh/mesh_file.h"
-
-#include <fcntl.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <cerrno>
-#include <cstring>
 #include <utility>
 
 #include "cellocut/base/atomic_file.h"
 #include "cellocut/base/errors.h"
+#include "cellocut/base/read_file.h"
 #include "cellocut/mesh/mesh_readers.h"
 
 namespace cellocut {
@@ -29,42 +22,6 @@ constexpr std::array<std::pair<std::string_view, MeshFormat>, 6> kFormatNames{{
     {"stl", MeshFormat::stl},
     {"stl-ascii", MeshFormat::stl_ascii},
 }};
-
-// Closes the descriptor on every way out; standard input stays open.
-struct InputDescriptor {
-  int number;
-  ~InputDescriptor() {
-    if (number > STDIN_FILENO) ::close(number);
-  }
-};
-
-std::string read_all(const std::string& path) {
-  const bool standard_input = path == "-";
-  const InputDescriptor input{standard_input ? STDIN_FILENO
-                                             : ::open(path.c_str(), O_RDONLY | O_CLOEXEC)};
-  if (input.number < 0) throw InputError(std::string("cannot open: ") + std::strerror(errno), path);
-  struct stat status {};
-  if (::fstat(input.number, &status) == 0 && S_ISDIR(status.st_mode)) {
-    throw InputError("is a directory", path);
-  }
-  constexpr std::size_t kStep = std::size_t{1} << 20;
-  std::string bytes;
-  // One byte more than the size, so that the end is found without growing.
-  bytes.resize(S_ISREG(status.st_mode) ? static_cast<std::size_t>(status.st_size) + 1 : kStep);
-  std::size_t filled = 0;
-  while (true) {
-    if (filled == bytes.size()) bytes.resize(bytes.size() + std::max(kStep, bytes.size() / 2));
-    const ssize_t got = ::read(input.number, bytes.data() + filled, bytes.size() - filled);
-    if (got == 0) break;
-    if (got > 0) {
-      filled += static_cast<std::size_t>(got);
-    } else if (errno != EINTR) {
-      throw InputError(std::string("cannot read: ") + std::strerror(errno), path);
-    }
-  }
-  bytes.resize(filled);
-  return bytes;
-}
 
 std::string_view without_byte_order_mark(std::string_view bytes) {
   constexpr std::string_view kUtf8 = "\xEF\xBB\xBF";
@@ -118,8 +75,7 @@ TriangleSoup read_mesh(const std::string& path, std::optional<MeshFormat> format
                          : "cannot tell the mesh format of '" + path +
                                "' from its name (.obj .off .ply .stl); name it with --format");
   }
-  const std::string bytes = read_all(path);
-  if (bytes.empty()) throw InputError("the file is empty", path);
+  const std::string bytes = read_file(path);
   try {
     return parse(bytes, *format);
   } catch (const InputError& error) {

@@ -1,0 +1,253 @@
+// cellocut compare: every backend and every solver on the same inputs, with proof.
+#include <fmt/core.h>
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "backends/backends.h"
+#include "cellocut_version.h"
+#include "solvers/solvers.h"
+#include "tools/commands.h"
+#include "tools/comparison.h"
+#include "tools/exit_code.h"
+#include "tools/pipeline_arguments.h"
+#include "tools/problem_io.h"
+#include "tools/session.h"
+#ifdef CELLOCUT_WITH_VIZ
+#include "tools/labelled_cells.h"
+#endif
+
+namespace cellocut::tools {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct CompareArguments {
+  CommonOptions common;
+  std::vector<std::string> inputs;
+  std::string folder;
+  std::string backends = "all";
+  std::string solvers = "all";
+  bool write_problems = false;
+  solvers::ComparisonOptions comparison{.solvers = {}, .repeats = 5};
+  PipelineArguments pipeline;
+};
+
+void add_arguments(CLI::App& app, CompareArguments& a) {
+  app.add_option("inputs", a.inputs, "Meshes (.obj .off .ply .stl) and problems (.max .bbk)")
+      ->required();
+  app.add_option("-o,--output", a.folder,
+                 "Folder for compare.csv, compare.json and a VTU per mesh and backend")
+      ->required();
+  app.add_option("--backends", a.backends, "Names with commas between, or all")
+      ->capture_default_str();
+  app.add_option("--solvers", a.solvers,
+                 "Names with commas between, all, or own (all but the references)")
+      ->capture_default_str();
+  app.add_option("--repeat", a.comparison.repeats, "How often each solver solves, 1 to 1000")
+      ->capture_default_str();
+  app.add_option("--time-limit", a.comparison.seconds_limit,
+                 "Seconds after which a solve is given up; 0: never")
+      ->capture_default_str();
+  app.add_flag("--write-problems", a.write_problems, "Each mesh's problem too, as .max and .bbk");
+  a.pipeline.add_to(app);
+  a.common.add_to(app);
+}
+
+// The names that are chosen, each checked against the table.
+template <class Interface, class Wanted>
+std::vector<std::string> choose(const std::vector<Variant<Interface>>& table,
+                                const std::string& kind, const std::string& names,
+                                const Wanted& wanted) {
+  std::vector<std::string> chosen;
+  if (names == "all" || names == "own") {
+    for (const Variant<Interface>& variant : table) {
+      if (variant.make != nullptr && (names == "all" || wanted(variant))) {
+        chosen.push_back(variant.name);
+      }
+    }
+    return chosen;
+  }
+  for (const std::string& name : CLI::detail::split(names, ',')) {
+    (void)make_variant(table, kind, name);
+    chosen.push_back(name);
+  }
+  return chosen;
+}
+
+std::size_t count_terminal_arcs(const CutProblem& problem) {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < problem.node_count(); ++i) {
+    count += problem.to_source[i] != 0 || problem.to_sink[i] != 0 ? 1 : 0;
+  }
+  return count;
+}
+
+class Comparison {
+ public:
+  Comparison(CompareArguments& a, TerminalObserver& observer) : a_(a), observer_(observer) {}
+
+  void run() {
+    for (const std::string& input : a_.inputs) {
+      observer_.stage(input);
+      if (const std::optional<ProblemFormat> format = problem_format_of_path(input)) {
+        compare(input, "", read_problem(input, *format).problem);
+      } else {
+        compare_mesh(input);
+      }
+    }
+  }
+
+  [[nodiscard]] const std::vector<ComparedInstance>& instances() const { return instances_; }
+  [[nodiscard]] const std::vector<ComparedBackends>& pairs() const { return pairs_; }
+
+ private:
+  ComparedInstance& compare(const std::string& input, const std::string& backend,
+                            const CutProblem& problem) {
+    ComparedInstance& instance = instances_.emplace_back();
+    instance.input = input;
+    instance.backend = backend;
+    instance.nodes = problem.node_count();
+    instance.edges = problem.edges.size();
+    instance.terminal_arcs = count_terminal_arcs(problem);
+    instance.statistics = problem_statistics(problem);
+    instance.runs = solvers::compare_solvers(problem, a_.comparison);
+    instance.defect = solvers::find_disagreement(instance.runs);
+    return instance;
+  }
+
+  void compare_mesh(const std::string& input) {
+    const TriangleSoup soup = read_input(input);
+    std::vector<std::pair<std::string, RemeshResult>> results;
+    for (const std::string& backend :
+         choose(backends::registered(), "backend", a_.backends, [](const auto&) { return true; })) {
+      RemeshResult result =
+          pose_cut(soup, a_.pipeline.options, *backends::make(backend), observer_);
+      if (result.proxy.mesh.empty()) {
+        throw GuaranteeError(input + ": no cell is interior, there is no problem to compare");
+      }
+      certify(compare(input, backend, result.graph.problem), result);
+      write_files(input, backend, result);
+      results.emplace_back(backend, std::move(result));
+    }
+    for (std::size_t i = 1; i < results.size(); ++i) {
+      const auto& [first_name, first] = results[0];
+      const auto& [name, other] = results[i];
+      const double energy = static_cast<double>(first.cut.value) / first.areas.scale;
+      const double other_energy = static_cast<double>(other.cut.value) / other.areas.scale;
+      pairs_.push_back({input, first_name, name, std::fabs(other_energy - energy) / energy,
+                        differing_cell_share(first.complex, other.complex)});
+    }
+  }
+
+  // Every flow against the complex itself; the labels of the last stay in the result.
+  void certify(ComparedInstance& instance, RemeshResult& result) {
+    for (const solvers::SolverRun& run : instance.runs) {
+      if (!run.refused.empty() || run.result.status != CutStatus::optimal) continue;
+      adopt_cut(result, a_.pipeline.options, run.result);
+      if (!result.certificate.valid && instance.defect.empty()) {
+        instance.defect = "solver '" + run.info.name + "': the certificate failed";
+      }
+    }
+  }
+
+  [[nodiscard]] std::string output(const std::string& input, const std::string& ending) {
+    // Two inputs of one name in different folders get numbers.
+    const std::string stem = std::filesystem::path(input).stem().string();
+    std::string name = stem + ending;
+    for (int n = 2; !names_.insert(name).second; ++n)
+      name = fmt::format("{}_{}{}", stem, n, ending);
+    return (std::filesystem::path(a_.folder) / name).string();
+  }
+
+  void write_files(const std::string& input, const std::string& backend,
+                   const RemeshResult& result) {
+    const ComparedInstance& instance = instances_.back();
+    if (a_.write_problems) {
+      const std::string path = output(input, "_" + backend + ".max");
+      write_problem(result.graph.problem, path, ProblemFormat::dimacs);
+      write_problem(result.graph.problem, output(input, "_" + backend + ".bbk"),
+                    ProblemFormat::bbk);
+    }
+#ifdef CELLOCUT_WITH_VIZ
+    viz::LabelledCells cells = labelled_cells(result, a_.pipeline.options, "");
+    std::vector<std::uint8_t> disagree(result.complex.cells.size(), 0);
+    for (const solvers::SolverRun& run : instance.runs) {
+      if (!run.refused.empty() || run.result.status != CutStatus::optimal) continue;
+      const CutLabels& side = a_.pipeline.options.cut == CutChoice::largest
+                                  ? run.result.largest_source_side
+                                  : run.result.smallest_source_side;
+      CellLabels labels = expand_labels(result.graph, side);
+      for (std::size_t c = 0; c < labels.size(); ++c) {
+        if (labels[c] != result.label[c]) disagree[c] = 1;
+      }
+      cells.arrays.push_back({"label_" + run.info.name, std::move(labels)});
+    }
+    cells.arrays.push_back({"disagree", std::move(disagree)});
+    write_text(output(input, "_" + backend + ".vtu"), encode_vtu(cells));
+#else
+    (void)instance;
+#endif
+  }
+
+  CompareArguments& a_;
+  TerminalObserver& observer_;
+  std::vector<ComparedInstance> instances_;
+  std::vector<ComparedBackends> pairs_;
+  std::set<std::string> names_;
+};
+
+int run_compare(CompareArguments& a) {
+  a.pipeline.complete();
+  a.pipeline.options.validate();
+  a.comparison.solvers =
+      choose(solvers::registered(), "solver", a.solvers,
+             [](const Variant<CutSolver>& variant) { return !variant.make()->info().outside; });
+  (void)choose(backends::registered(), "backend", a.backends, [](const auto&) { return true; });
+  std::error_code error;
+  std::filesystem::create_directories(a.folder, error);
+  if (error) throw UsageError(a.folder + ": cannot make the folder: " + error.message());
+  const std::filesystem::path folder(a.folder);
+  const std::string csv = (folder / "compare.csv").string();
+  const std::string json = (folder / "compare.json").string();
+  require_writable({csv, json, a.common.json});
+  const ThreadLimit limit(a.common.threads);
+  TerminalObserver observer(a.common);
+  a.comparison.observer = &observer;
+
+  Comparison comparison(a, observer);
+  comparison.run();
+  observer.clear();
+  Json report{{"version", kCellocutVersion}, {"repeats", a.comparison.repeats}};
+  report.update(comparison_json(comparison.instances(), comparison.pairs()));
+  write_text(csv, comparison_csv(comparison.instances()));
+  write_text(json, report.dump(2) + "\n");
+  if (!a.common.json.empty()) write_text(a.common.json, report.dump(2) + "\n");
+  if (!a.common.quiet && a.common.json != "-") {
+    fmt::print("{}", comparison_table(comparison.instances(), comparison.pairs()));
+  }
+  for (const ComparedInstance& instance : comparison.instances()) {
+    if (instance.defect.empty()) continue;
+    print_error(instance.input + ": " + instance.defect);
+    return kCertificateFailed;
+  }
+  return kDone;
+}
+
+}  // namespace
+
+Command add_compare(CLI::App& program) {
+  CLI::App* app = program.add_subcommand(
+      "compare", "Backends and solvers on the same meshes and problem files, timed and proved");
+  auto arguments = std::make_shared<CompareArguments>();
+  add_arguments(*app, *arguments);
+  return {app, [arguments] { return run_compare(*arguments); },
+          [arguments] { return arguments->inputs.empty() ? "" : arguments->inputs.front(); }};
+}
+
+}  // namespace cellocut::tools

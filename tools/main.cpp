@@ -1,5 +1,6 @@
 // The `cellocut` program: picks the subcommand, runs it, turns exceptions into exit codes.
 #include <CLI/CLI.hpp>
+#include <cstdio>
 #include <vector>
 
 #include "cellocut_version.h"
@@ -7,8 +8,10 @@
 #include "tools/exit_code.h"
 #include "tools/session.h"
 
-int main(int argc, char** argv) {
-  using namespace cellocut::tools;
+namespace cellocut::tools {
+namespace {
+
+int run_program(int argc, char** argv) {
   CLI::App program{
       "Turns a defective triangle mesh into a closed, manifold, embedded solid by a minimum cut "
       "over "
@@ -38,4 +41,17 @@ int main(int argc, char** argv) {
     }
   }
   return kUsage;
+}
+
+}  // namespace
+}  // namespace cellocut::tools
+
+int main(int argc, char** argv) {
+  try {
+    return cellocut::tools::run_program(argc, argv);
+  } catch (...) {
+    // Not even the message of an error could be put together.
+    std::fputs("cellocut: out of memory\n", stderr);
+    return cellocut::tools::kLimit;
+  }
 }

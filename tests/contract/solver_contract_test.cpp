@@ -31,7 +31,7 @@ std::vector<std::string> built_solvers() {
 // so that agreement says something.
 std::string witness_for(const std::string& solver) {
   const std::vector<std::string> built = built_solvers();
-  for (const std::string wanted : {"lemon_preflow", "bk", "push_relabel", "ibfs"}) {
+  for (const char* wanted : {"lemon_preflow", "bk", "push_relabel", "ibfs"}) {
     if (wanted != solver && std::count(built.begin(), built.end(), wanted) != 0) return wanted;
   }
   return {};

@@ -127,12 +127,11 @@ TEST(DistanceField, EqualsBruteForceAndStoresTheBandExactly) {
       for_each_grid_point(field, frame, [&](const Point3& p, bool stored, float value) {
         const double phi = soup_distance(soup, p) / frame.spacing - offset;
         stored_points += stored ? 1 : 0;
-        if (std::fabs(std::fabs(phi) - kBand) > kTolerance && stored != (std::fabs(phi) < kBand)) {
-          ++wrong;
-        } else if (stored ? std::fabs(value - phi) > kTolerance
-                          : value != (phi < 0 ? -kBand : kBand)) {
-          ++wrong;
-        }
+        const bool near_the_rim = std::fabs(std::fabs(phi) - kBand) <= kTolerance;
+        const bool wrong_place = !near_the_rim && stored != (std::fabs(phi) < kBand);
+        const bool wrong_value =
+            stored ? std::fabs(value - phi) > kTolerance : value != (phi < 0 ? -kBand : kBand);
+        wrong += wrong_place || wrong_value ? 1 : 0;
       });
       EXPECT_EQ(wrong, 0);
       EXPECT_EQ(field.stored_values(), stored_points);

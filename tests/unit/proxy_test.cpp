@@ -159,6 +159,7 @@ TEST(NearestVertex, EqualsBruteForce) {
   std::mt19937 random(11);
   std::uniform_real_distribution<double> place(0, 12);
   std::vector<Point3> points;
+  points.reserve(701);
   for (int i = 0; i < 700; ++i) points.push_back({place(random), place(random), place(random)});
   points.push_back(points[3]);  // a tie: the lower index wins
   const NearestVertex nearest(points);

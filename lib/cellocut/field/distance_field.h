@@ -9,8 +9,9 @@
 namespace cellocut {
 
 // phi(x) = distance(x, mesh) - offset, in grid steps, at every grid point with |phi| < kBand; tiles
-// inside and outside of it, rounded to odd multiples of 2^-15 (an input that was scaled or moved has
-// distances that differ in their last bits, and so the same field). `offset` >= 0 is in grid steps.
+// inside and outside of it, rounded to odd multiples of 2^-15 (an input that was scaled or moved
+// has distances that differ in their last bits, and so the same field). `offset` >= 0 is in grid
+// steps.
 //
 // An octree is descended from the whole grid. At each node the exact distance from its centre to
 // its candidate triangles bounds the distance at all its grid points; a node that the band does not

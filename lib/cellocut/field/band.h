@@ -24,8 +24,9 @@ struct Band {
 };
 
 // Covers the grid points [0, 2^k) of each axis, 2^k >= extent, with leaves and tiles. Leaves hold
-// distance - offset in grid steps, rounded to odd multiples of 2^-15, active where below kBand in size and +-kBand elsewhere. In no
-// particular order; the values are the same for any number of threads. Errors: Cancelled.
+// distance - offset in grid steps, rounded to odd multiples of 2^-15, active where below kBand in
+// size and +-kBand elsewhere. In no particular order; the values are the same for any number of
+// threads. Errors: Cancelled.
 Band find_band(const std::vector<DistanceTriangle>& triangles, int extent, double offset,
                Observer& observer);
 

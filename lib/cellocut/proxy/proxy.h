@@ -14,7 +14,8 @@ namespace cellocut {
 // How far the proxy may depart from phi = 0, in grid steps.
 inline constexpr double kProxyTolerance = 0.5;
 
-// How far a vertex is moved per axis, in grid steps: little against the grid, much against rounding.
+// How far a vertex is moved per axis, in grid steps: little against the grid, much against
+// rounding.
 inline constexpr double kTieBreak = 0x1p-13;
 
 struct Proxy {

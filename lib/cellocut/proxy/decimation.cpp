@@ -31,7 +31,8 @@ std::vector<Triangle> simplify(const Part& part, double kept_share, double error
                                unsigned int options) {
   const std::size_t points = part.origin.size();
   const std::size_t stride = 3 * sizeof(float);
-  const double kept = kept_share * static_cast<double>(part.corners.size() / 3);
+  const std::size_t faces_before = part.corners.size() / 3;
+  const double kept = kept_share * static_cast<double>(faces_before);
   const std::size_t target = 3 * static_cast<std::size_t>(std::ceil(kept));
   const float scale = meshopt_simplifyScale(part.positions.data(), points, stride);
   std::vector<unsigned int> left(part.corners.size());

@@ -19,6 +19,7 @@
 #include "cellocut/base/stopwatch.h"
 #include "cellocut/mesh/mesh_file.h"
 #include "cellocut/pipeline.h"
+#include "solvers/comparison.h"
 #include "solvers/solvers.h"
 
 namespace {
@@ -55,38 +56,29 @@ Arguments parse(int argc, char** argv) {
   return a;
 }
 
-// Every exact solver on the problem of `result`; what disagrees, or nothing. `times` says what each
-// took.
-std::string disagreement(const RemeshResult& result, const RemeshOptions& options,
-                         std::string& times) {
-  times = "  build and solve, s:";
+// Every exact solver on the problem of `result`, whose labels and flow become those of the last;
+// what disagrees, or nothing. `times` says what each took.
+std::string disagreement(RemeshResult& result, const RemeshOptions& options, std::string& times) {
+  solvers::ComparisonOptions comparison;
   for (const Variant<CutSolver>& variant : solvers::registered()) {
-    if (variant.make == nullptr) continue;
-    const std::unique_ptr<CutSolver> solver = variant.make();
-    if (!solver->info().exact) continue;
-    const CutResult cut = solver->solve(result.graph.problem);
-    times += fmt::format(" {} {:.3f} + {:.3f}", variant.name, cut.build_seconds, cut.solve_seconds);
-    if (cut.status != CutStatus::optimal) return variant.name + ": " + cut.message;
-    if (cut.value != result.cut.value) return variant.name + ": another value";
-    if (cut.smallest_source_side != result.cut.smallest_source_side ||
-        cut.largest_source_side != result.cut.largest_source_side) {
-      return variant.name + ": another canonical labelling";
+    if (variant.make != nullptr && variant.make()->info().exact) {
+      comparison.solvers.push_back(variant.name);
     }
-    const std::vector<std::int64_t> flow =
-        lift_flow(result.graph, result.facets, result.areas, result.initial_label, result.anchors,
-                  options.lambda_fill, cut.edge_flow);
-    const CertificateReport certificate = check_certificate(
-        {.complex = result.complex,
-         .initial = result.initial_label,
-         .mode = options.exterior,
-         .lambda = options.lambda_fill,
-         .unit = result.frame.unit,
-         .area_bits = options.area_bits,
-         .facet_flow = flow,
-         .value = cut.value,
-         .smallest_interior = expand_labels(result.graph, cut.smallest_source_side),
-         .largest_interior = expand_labels(result.graph, cut.largest_source_side)});
-    if (!certificate.valid) return variant.name + ": the certificate fails";
+  }
+  const std::int64_t value = result.cut.value;
+  const auto runs = solvers::compare_solvers(result.graph.problem, comparison);
+  times = "  build and solve, s:";
+  for (const solvers::SolverRun& run : runs) {
+    if (!run.refused.empty()) return run.info.name + ": " + run.refused;
+    times += fmt::format(" {} {:.3f} + {:.3f}", run.info.name, run.build_seconds[0],
+                         run.solve_seconds[0]);
+  }
+  std::string defect = solvers::find_disagreement(runs);
+  if (!defect.empty()) return defect;
+  for (const solvers::SolverRun& run : runs) {
+    if (run.result.value != value) return run.info.name + ": another value";
+    adopt_cut(result, options, run.result);
+    if (!result.certificate.valid) return run.info.name + ": the certificate fails";
   }
   return {};
 }

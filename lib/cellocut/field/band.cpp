@@ -191,11 +191,12 @@ class Descent {
 
   // The distance of p from the closest candidate, which becomes the winner; it is tried first.
   double distance(const Point3& p, const Candidates& candidates, std::uint32_t& winner) const {
-    double squared = triangles_[winner].squared_distance(p);
+    const std::uint32_t first = winner;
+    double squared = triangles_[first].squared_distance(p);
     double distance = std::sqrt(squared);
     for (const std::uint32_t t : candidates) {
       const double reach = distance + balls_[t].radius + kSlack;
-      if (squared_norm(p - balls_[t].centre) > reach * reach) continue;
+      if (t == first || squared_norm(p - balls_[t].centre) > reach * reach) continue;
       const double candidate = triangles_[t].squared_distance(p);
       if (candidate < squared) {
         squared = candidate;

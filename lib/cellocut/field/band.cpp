@@ -4,6 +4,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <limits>
@@ -58,6 +59,12 @@ class Descent {
   }
 
  private:
+  // Scratch space for the parts of one edge length.
+  struct Workspace {
+    std::vector<Eight> squared;  // distances of a candidate from the centres of the parts
+    Candidates narrowed;
+  };
+
   enum class Place { band, inside, outside };
 
   // Whether the band reaches the grid points low .. low + edge - 1, and if so which of the
@@ -119,7 +126,7 @@ class Descent {
     }
     if (edge == kLeafEdge) {
       auto leaf = std::make_unique<FieldLeaf>(low, kBand, false);
-      fill(*leaf, low, kLeafEdge / 2, narrowed);
+      fill(*leaf, low, kLeafEdge, narrowed, workspaces_.local().data());
       parts_.local().leaves.push_back(std::move(leaf));
       return;
     }
@@ -135,27 +142,60 @@ class Descent {
     }
   }
 
-  // Fills the eight sub-blocks of `edge` grid points inside one leaf.
-  void fill(FieldLeaf& leaf, const openvdb::Coord& low, int edge,
-            const Candidates& candidates) const {
-    Candidates narrowed;
+  // Fills the cube of `edge` grid points at `low`, part by eighth part: those that the band does
+  // not reach at once, the others from the candidates that can be closest to one of their points.
+  void fill(FieldLeaf& leaf, const openvdb::Coord& low, int edge, const Candidates& candidates,
+            Workspace* workspace) const {
+    const int half = edge / 2;
+    const EightPoints centres = centres_of_parts(low, half);
+    std::vector<Eight>& squared = workspace->squared;
+    squared.resize(candidates.size());
+    Eight closest;
+    closest.fill(std::numeric_limits<double>::infinity());
+    for (std::size_t i = 0; i < candidates.size(); ++i) {
+      triangles_[candidates[i]].squared_distances(centres, squared[i]);
+      for (std::size_t k = 0; k < 8; ++k) closest[k] = std::min(closest[k], squared[i][k]);
+    }
+    const double radius = std::sqrt(3.0) * 0.5 * (half - 1);
     for (int k = 0; k < 8; ++k) {
-      const openvdb::Coord sub =
-          low.offsetBy((k & 1) * edge, ((k >> 1) & 1) * edge, (k >> 2) * edge);
-      switch (narrow(sub, edge, candidates, narrowed)) {
-        case Place::outside:
-          break;  // the leaf was made with +kBand
-        case Place::inside:
-          fill_inside(leaf, sub, edge);
-          break;
-        case Place::band:
-          if (edge > 2) {
-            fill(leaf, sub, edge / 2, narrowed);
-          } else {
-            evaluate(leaf, sub, edge, narrowed);
-          }
-          break;
+      const openvdb::Coord part =
+          low.offsetBy((k & 1) * half, ((k >> 1) & 1) * half, (k >> 2) * half);
+      const double distance = std::sqrt(closest[k]);
+      if (half == 1) {
+        set(leaf, part, distance);
+      } else if (distance - offset_ > radius + kBand + kSlack) {
+        continue;  // the leaf was made with +kBand
+      } else if (distance - offset_ < -(radius + kBand + kSlack)) {
+        fill_inside(leaf, part, half);
+      } else {
+        const double reach = std::min(distance + 2 * radius, offset_ + kBand + radius) + kSlack;
+        Candidates& narrowed = workspace->narrowed;
+        narrowed.clear();
+        for (std::size_t i = 0; i < candidates.size(); ++i) {
+          if (squared[i][k] <= reach * reach) narrowed.push_back(candidates[i]);
+        }
+        fill(leaf, part, half, narrowed, workspace + 1);
       }
+    }
+  }
+
+  static EightPoints centres_of_parts(const openvdb::Coord& low, int edge) {
+    const double middle = 0.5 * (edge - 1);
+    EightPoints centres;
+    for (int k = 0; k < 8; ++k) {
+      centres.x[k] = low.x() + (k & 1) * edge + middle;
+      centres.y[k] = low.y() + ((k >> 1) & 1) * edge + middle;
+      centres.z[k] = low.z() + (k >> 2) * edge + middle;
+    }
+    return centres;
+  }
+
+  void set(FieldLeaf& leaf, const openvdb::Coord& at, double distance) const {
+    const auto phi = static_cast<float>(to_quantum(distance - offset_));
+    if (std::fabs(phi) < kBand) {
+      leaf.setValueOn(at, phi);
+    } else if (phi < 0) {
+      leaf.setValueOff(at, -kBand);
     }
   }
 
@@ -167,51 +207,13 @@ class Descent {
     }
   }
 
-  void evaluate(FieldLeaf& leaf, const openvdb::Coord& low, int edge,
-                const Candidates& candidates) const {
-    // The closest at one grid point is often the closest at the next, and else a good bound.
-    std::uint32_t winner = candidates.front();
-    for (int x = 0; x < edge; ++x) {
-      for (int y = 0; y < edge; ++y) {
-        for (int z = 0; z < edge; ++z) {
-          const openvdb::Coord at = low.offsetBy(x, y, z);
-          const Point3 p{static_cast<double>(at.x()), static_cast<double>(at.y()),
-                         static_cast<double>(at.z())};
-          const auto phi =
-              static_cast<float>(to_quantum(distance(p, candidates, winner) - offset_));
-          if (std::fabs(phi) < kBand) {
-            leaf.setValueOn(at, phi);
-          } else if (phi < 0) {
-            leaf.setValueOff(at, -kBand);
-          }
-        }
-      }
-    }
-  }
-
-  // The distance of p from the closest candidate, which becomes the winner; it is tried first.
-  double distance(const Point3& p, const Candidates& candidates, std::uint32_t& winner) const {
-    const std::uint32_t first = winner;
-    double squared = triangles_[first].squared_distance(p);
-    double distance = std::sqrt(squared);
-    for (const std::uint32_t t : candidates) {
-      const double reach = distance + balls_[t].radius + kSlack;
-      if (t == first || squared_norm(p - balls_[t].centre) > reach * reach) continue;
-      const double candidate = triangles_[t].squared_distance(p);
-      if (candidate < squared) {
-        squared = candidate;
-        distance = std::sqrt(squared);
-        winner = t;
-      }
-    }
-    return distance;
-  }
-
   const std::vector<DistanceTriangle>& triangles_;
   std::vector<Ball> balls_;  // one per triangle
   double offset_;
   Observer& observer_;
-  tbb::enumerable_thread_specific<Band> parts_;  // one per thread
+  // One per thread; the levels within a leaf are three.
+  tbb::enumerable_thread_specific<Band> parts_;
+  tbb::enumerable_thread_specific<std::array<Workspace, 3>> workspaces_;
 };
 
 }  // namespace

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <vector>
@@ -11,6 +12,14 @@
 #include "cellocut/mesh/triangle_soup.h"
 
 namespace cellocut {
+
+using Eight = std::array<double, 8>;
+
+struct EightPoints {
+  Eight x;
+  Eight y;
+  Eight z;
+};
 
 // One triangle (possibly degenerate) with what a distance query needs.
 class DistanceTriangle {
@@ -32,6 +41,9 @@ class DistanceTriangle {
     return std::min({squared_distance_to_edge(p, 0), squared_distance_to_edge(p, 1),
                      squared_distance_to_edge(p, 2)});
   }
+
+  // What squared_distance gives at each of the points, bit for bit.
+  void squared_distances(const EightPoints& points, Eight& squared) const;
 
   // A ball that holds the triangle.
   [[nodiscard]] const Point3& centre() const { return centre_; }

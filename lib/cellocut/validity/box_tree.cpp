@@ -2,68 +2,75 @@
 
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_invoke.h>
+#include <tbb/parallel_sort.h>
+
+#include <cmath>
 
 namespace cellocut {
 
 namespace {
-constexpr std::size_t kLeafSize = 8;
-constexpr std::size_t kParallelSize = 4096;  // smaller subtrees are built by one thread
-}  // namespace
 
-struct BoxTree::Item {
-  std::array<float, 3> centre;
+constexpr std::size_t kLeafSize = 8;
+constexpr std::size_t kParallelSize =
+    512;  // smaller subtrees, in leaves, are bounded by one thread
+
+struct Place {
+  std::uint64_t code;  // along the curve
   std::uint32_t id;
+  auto operator<=>(const Place&) const = default;
 };
 
-BoxTree::BoxTree(const std::vector<std::uint32_t>& ids, const std::vector<FloatBox>& boxes)
-    : ids_(ids), boxes_(ids.size()) {
-  while (ids.size() > kLeafSize << depth_) ++depth_;
-  nodes_.resize(2 * leaf_count());
-  std::vector<Item> items(ids.size());
-  tbb::parallel_for(std::size_t{0}, ids.size(), [&](std::size_t i) {
-    const FloatBox& box = boxes[ids[i]];
-    items[i].id = ids[i];
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      items[i].centre[axis] = 0.5F * (box.low[axis] + box.high[axis]);
-    }
-  });
-  build(1, 0, items, boxes);
+// The 21 lowest bits, three places apart.
+std::uint64_t spread(std::uint64_t x) {
+  x = (x | x << 32U) & 0x001F00000000FFFFU;
+  x = (x | x << 16U) & 0x001F0000FF0000FFU;
+  x = (x | x << 8U) & 0x100F00F00F00F00FU;
+  x = (x | x << 4U) & 0x10C30C30C30C30C3U;
+  return (x | x << 2U) & 0x1249249249249249U;
 }
 
-void BoxTree::build(std::size_t node, unsigned level, std::vector<Item>& items,
-                    const std::vector<FloatBox>& boxes) {
-  const std::size_t first_leaf = (node << (depth_ - level)) - leaf_count();
-  const std::size_t leaves = std::size_t{1} << (depth_ - level);
-  const std::size_t begin = begin_of(first_leaf);
-  const std::size_t end = begin_of(first_leaf + leaves);
+}  // namespace
+
+BoxTree::BoxTree(const std::vector<std::uint32_t>& ids, const std::vector<FloatBox>& boxes)
+    : ids_(ids.size()), boxes_(ids.size()) {
+  while (ids.size() > kLeafSize << depth_) ++depth_;
+  nodes_.resize(2 * leaf_count());
+  FloatBox all = FloatBox::none();
+  for (const std::uint32_t id : ids) all.include(boxes[id]);
+  const float cells = std::ldexp(1.0F, 20);  // twice the centre has 21 bits
+  const float edge = all.longest_edge();
+  const float scale = edge > 0 ? cells / edge : 0;
+
+  std::vector<Place> places(ids.size());
+  tbb::parallel_for(std::size_t{0}, ids.size(), [&](std::size_t i) {
+    const FloatBox& box = boxes[ids[i]];
+    std::uint64_t code = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const float twice = (box.low[axis] - all.low[axis]) + (box.high[axis] - all.low[axis]);
+      code |= spread(static_cast<std::uint64_t>(std::fmin(twice * scale, 0x1FFFFF))) << axis;
+    }
+    places[i] = {code, ids[i]};
+  });
+  tbb::parallel_sort(places.begin(), places.end());
+  tbb::parallel_for(std::size_t{0}, ids.size(), [&](std::size_t i) {
+    ids_[i] = places[i].id;
+    boxes_[i] = boxes[ids_[i]];
+  });
+  bound(1);
+}
+
+// Finds the box of a node and of all below it.
+void BoxTree::bound(std::size_t node) {
   FloatBox& box = nodes_[node];
   box = FloatBox::none();
-  if (level == depth_) {
-    for (std::size_t i = begin; i < end; ++i) {
-      ids_[i] = items[i].id;
-      boxes_[i] = boxes[ids_[i]];
-      box.include(boxes_[i]);
-    }
+  if (node >= leaf_count()) {
+    const std::size_t leaf = node - leaf_count();
+    for (std::size_t i = begin_of(leaf); i < begin_of(leaf + 1); ++i) box.include(boxes_[i]);
     return;
   }
-  FloatBox centres = FloatBox::none();
-  for (std::size_t i = begin; i < end; ++i) {
-    centres.include({items[i].centre, items[i].centre});
-  }
-  std::size_t axis = 0;
-  for (std::size_t other = 1; other < 3; ++other) {
-    if (centres.high[other] - centres.low[other] > centres.high[axis] - centres.low[axis]) {
-      axis = other;
-    }
-  }
-  const std::size_t middle = begin_of(first_leaf + leaves / 2);
-  const auto at = [&](std::size_t i) { return items.begin() + static_cast<std::ptrdiff_t>(i); };
-  std::nth_element(at(begin), at(middle), at(end), [axis](const Item& a, const Item& b) {
-    return a.centre[axis] != b.centre[axis] ? a.centre[axis] < b.centre[axis] : a.id < b.id;
-  });
-  const auto left = [&] { build(2 * node, level + 1, items, boxes); };
-  const auto right = [&] { build(2 * node + 1, level + 1, items, boxes); };
-  if (end - begin > kParallelSize) {
+  const auto left = [&] { bound(2 * node); };
+  const auto right = [&] { bound(2 * node + 1); };
+  if (node < leaf_count() / kParallelSize) {
     tbb::parallel_invoke(left, right);
   } else {
     left();

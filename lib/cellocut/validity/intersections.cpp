@@ -8,8 +8,10 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <span>
 
 #include "cellocut/validity/box_tree.h"
+#include "cellocut/validity/face_filter.h"
 #include "cellocut/validity/triangle_pair.h"
 
 namespace cellocut {
@@ -185,15 +187,14 @@ class Search {
     tbb::parallel_for(leaves, [&](const auto& range) {
       observer_.check();
       PairList& found = found_.local();
+      std::vector<PreparedFace> prepared;
       for (std::size_t leaf = range.begin(); leaf < range.end(); ++leaf) {
-        std::uint32_t prepared_face = tree.first_of_leaf(leaf);
-        PreparedFace prepared(points_, triangles_[prepared_face]);
-        tree.visit_pairs_of_leaf(leaf, [&](std::uint32_t f, std::uint32_t g) {
-          if (f != prepared_face) {
-            prepared_face = f;
-            prepared = PreparedFace(points_, triangles_[f]);
-          }
-          if (!prepared.certainly_apart(points_, triangles_[g])) test(f, g, found);
+        const std::span<const std::uint32_t> faces = tree.ids_of_leaf(leaf);
+        prepared.clear();
+        for (const std::uint32_t face : faces) prepared.emplace_back(points_, triangles_[face]);
+        tree.visit_pairs_of_leaf(leaf, [&](std::size_t place, std::uint32_t other) {
+          if (prepared[place].certainly_apart(points_, triangles_[other])) return;
+          test(faces[place], other, found);
         });
       }
       const double share =

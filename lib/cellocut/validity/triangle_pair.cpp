@@ -55,34 +55,6 @@ bool certainly_turns(const Point3& a, const Point3& b, const Point3& c, int i, i
 
 }  // namespace
 
-PreparedFace::PreparedFace(const std::vector<Point3>& points, const Triangle& face)
-    : corners_(face), origin_(points[face[0]]) {
-  const Point3 u = points[face[1]] - origin_;
-  const Point3 v = points[face[2]] - origin_;
-  normal_ = cross(u, v);
-  for (int axis = 0; axis < 3; ++axis) {
-    reach_[axis] = std::fmax(std::fabs(u[axis]), std::fabs(v[axis]));
-  }
-}
-
-bool PreparedFace::certainly_apart(const std::vector<Point3>& points, const Triangle& t) const {
-  int sides = 0;  // 1 for above, 2 for below
-  for (const std::uint32_t corner : t) {
-    if (corner == corners_[0] || corner == corners_[1] || corner == corners_[2]) continue;
-    const Point3 w = points[corner] - origin_;
-    const double height = dot(normal_, w);
-    // The determinant (u, v, w) has six products of three differences. Each difference is off by
-    // one rounding, each product by two more, and four sums follow: below 10 u times each product,
-    // where u = 2^-53, so below 60 u (reach x reach x reach) in all. Twice that is asked for.
-    double bound = 120 * 0x1p-53;
-    for (int axis = 0; axis < 3; ++axis) bound *= std::fmax(reach_[axis], std::fabs(w[axis]));
-    // Below this, products may have underflowed.
-    if (!(std::fabs(height) > bound) || !(bound > 1e-250)) return false;
-    sides |= height > 0 ? 1 : 2;
-  }
-  return sides == 1 || sides == 2;
-}
-
 bool faces_intersect(const std::vector<Point3>& points, const Triangle& s, const Triangle& t) {
   unsigned in_s[3] = {};
   unsigned in_t[3] = {};

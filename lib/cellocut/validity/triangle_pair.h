@@ -8,27 +8,10 @@
 
 namespace cellocut {
 
-// One face, prepared to tell without exact arithmetic that others do not meet it.
-class PreparedFace {
- public:
-  PreparedFace(const std::vector<Point3>& points, const Triangle& face);
-
-  // True only where the corners of t that are not corners of this face lie strictly on one side of
-  // its plane: then the two meet in common corners or a common edge alone. False says nothing.
-  [[nodiscard]] bool certainly_apart(const std::vector<Point3>& points, const Triangle& t) const;
-
- private:
-  Triangle corners_;
-  Point3 origin_;
-  Point3 normal_;
-  Point3 reach_;  // by axis, the longest edge from the origin
-};
-
 // Whether faces `s` and `t` meet in more than what their corners have in common:
 // - no common corner: the triangles have a point in common;
 // - one: the side opposite to it, in one of the two, meets the other triangle (any further common
-// point
-//   lies on a segment from the common corner that leaves one triangle through that side);
+//   point lies on a segment from the common corner that leaves one triangle through that side);
 // - two: the triangles are coplanar and lie on the same side of the common edge;
 // - three: always.
 // The same answer as CGAL's self_intersections() gives for a mesh (Polygon_mesh_processing 5.5).

@@ -1,0 +1,133 @@
+#include "cellocut/validity/face_filter.h"
+
+#include <cmath>
+
+namespace cellocut {
+
+namespace {
+
+constexpr double kUnitRoundoff = 0x1p-53;
+
+// -1 or 1 where the sign of normal . (p - origin) is certain, for the given doubles as they stand,
+// and 0 elsewhere. Each term is off by one rounding of its difference, one of its product and two
+// of sums, so below 5 u times its size; underflow adds less than 1e-300.
+int side_of_plane(const Point3& normal, const Point3& origin, const Point3& p) {
+  double sum = 0;
+  double size = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double term = normal[axis] * (p[axis] - origin[axis]);
+    sum += term;
+    size += std::fabs(term);
+  }
+  const double bound = 8 * kUnitRoundoff * size + 1e-290;
+  return sum > bound ? 1 : (sum < -bound ? -1 : 0);
+}
+
+// The same for the turn from b - a to p - a, seen along an axis: (Shewchuk, "Adaptive precision
+// floating-point arithmetic and fast robust geometric predicates", 1997, bounds it by 3 u).
+int side_of_line(const Point3& a, const Point3& b, const Point3& p, int i, int j) {
+  const double left = (b[i] - a[i]) * (p[j] - a[j]);
+  const double right = (b[j] - a[j]) * (p[i] - a[i]);
+  const double bound = 8 * kUnitRoundoff * (std::fabs(left) + std::fabs(right)) + 1e-290;
+  return left - right > bound ? 1 : (left - right < -bound ? -1 : 0);
+}
+
+// Of length between 0.57 and 1: which plane is tried may change what is proved, not the proof.
+Point3 roughly_unit(const Point3& v) {
+  return (1 / (std::fabs(v[0]) + std::fabs(v[1]) + std::fabs(v[2]))) * v;
+}
+
+}  // namespace
+
+PreparedFace::PreparedFace(const std::vector<Point3>& points, const Triangle& face)
+    : corners_(face), point_{points[face[0]], points[face[1]], points[face[2]]} {
+  const Point3 u = point_[1] - point_[0];
+  const Point3 v = point_[2] - point_[0];
+  normal_ = cross(u, v);
+  for (int axis = 0; axis < 3; ++axis) {
+    reach_[axis] = std::fmax(std::fabs(u[axis]), std::fabs(v[axis]));
+  }
+  centroid_ = (1.0 / 3) * ((point_[0] + point_[1]) + point_[2]);
+}
+
+bool PreparedFace::certainly_apart(const std::vector<Point3>& points, const Triangle& t) const {
+  // Corners of t that are not corners of this face, and corners of this face that are not of t.
+  std::array<Point3, 3> others;
+  int count = 0;
+  unsigned shared = 0;  // of this face, by bits
+  for (const std::uint32_t corner : t) {
+    const unsigned match = (corner == corners_[0] ? 1U : 0U) | (corner == corners_[1] ? 2U : 0U) |
+                           (corner == corners_[2] ? 4U : 0U);
+    if (match == 0) others[count++] = points[corner];
+    shared |= match;
+  }
+  if (count == 0) return false;
+
+  // A plane across the way from one to the other: most neighbours end here.
+  if (count == 3) {
+    const Point3 centroid = (1.0 / 3) * ((others[0] + others[1]) + others[2]);
+    const Point3 way = centroid - centroid_;
+    if (separated(centroid_ + 0.5 * way, way, -1, others, count)) return true;
+  } else if (count == 2) {
+    const int c = shared == 1 ? 0 : (shared == 2 ? 1 : 2);
+    const Point3& corner = point_[c];
+    const Point3 here =
+        roughly_unit(point_[(c + 1) % 3] - corner) + roughly_unit(point_[(c + 2) % 3] - corner);
+    const Point3 there = roughly_unit(others[0] - corner) + roughly_unit(others[1] - corner);
+    if (separated(corner, there - here, c, others, count)) return true;
+  }
+  // The plane of this face.
+  int sides = 0;  // 1 for above, 2 for below
+  for (int i = 0; i < count; ++i) {
+    if (!beside_plane(others[i], sides)) {
+      sides = 3;
+      break;
+    }
+  }
+  if (sides == 1 || sides == 2) return true;
+  // The common edge, seen along an axis.
+  return count == 1 && across_edge(shared == 6 ? 0 : (shared == 5 ? 1 : 2), others[0]);
+}
+
+// Whether this face's corners, but for the one given, lie strictly behind the plane and the others
+// strictly before it. (The corner given, if any, is the point that the plane goes through.)
+bool PreparedFace::separated(const Point3& through, const Point3& normal, int corner,
+                             const std::array<Point3, 3>& others, int count) const {
+  for (int k = 0; k < 3; ++k) {
+    if (k != corner && side_of_plane(normal, through, point_[k]) >= 0) return false;
+  }
+  for (int i = 0; i < count; ++i) {
+    if (side_of_plane(normal, through, others[i]) <= 0) return false;
+  }
+  return true;
+}
+
+// Whether p certainly lies off the plane of this face; adds its side.
+bool PreparedFace::beside_plane(const Point3& p, int& sides) const {
+  const Point3 w = p - point_[0];
+  const double height = dot(normal_, w);
+  // The determinant (u, v, w) has six products of three differences. Each difference is off by one
+  // rounding, each product by two more, and four sums follow: below 10 u times each product, where
+  // u is the unit roundoff, so below 60 u (reach x reach x reach) in all. Twice that is asked for.
+  double bound = 120 * kUnitRoundoff;
+  for (int axis = 0; axis < 3; ++axis) bound *= std::fmax(reach_[axis], std::fabs(w[axis]));
+  // Below this, products may have underflowed.
+  if (!(std::fabs(height) > bound) || !(bound > 1e-250)) return false;
+  sides |= height > 0 ? 1 : 2;
+  return true;
+}
+
+// Whether the edge opposite to corner `third` certainly has that corner on one side and p on the
+// other, in a projection along an axis. Both triangles then meet in the edge alone: elsewhere their
+// projections lie apart.
+bool PreparedFace::across_edge(int third, const Point3& p) const {
+  const Point3& a = point_[(third + 1) % 3];
+  const Point3& b = point_[(third + 2) % 3];
+  for (int i = 0; i < 3; ++i) {
+    const int j = (i + 1) % 3;
+    if (side_of_line(a, b, point_[third], i, j) * side_of_line(a, b, p, i, j) < 0) return true;
+  }
+  return false;
+}
+
+}  // namespace cellocut

@@ -1,10 +1,8 @@
 #include <algorithm>
-#include <array>
-#include <bit>
-#include <cstring>
 #include <limits>
 #include <type_traits>
 
+#include "cellocut/base/byte_order.h"
 #include "cellocut/base/errors.h"
 #include "cellocut/cut/file_limits.h"
 #include "cellocut/cut/problem_file.h"
@@ -19,21 +17,6 @@ constexpr std::size_t kHeaderSize = kMagic.size() + 2 + 3 * sizeof(std::uint64_t
 constexpr std::uint8_t kInt32 = 5;
 constexpr std::uint8_t kInt64 = 7;
 constexpr std::uint8_t kDouble = 9;
-
-template <class Scalar>
-Scalar load(const char* bytes) {
-  std::array<char, sizeof(Scalar)> raw;
-  std::memcpy(raw.data(), bytes, sizeof(Scalar));
-  if constexpr (std::endian::native != std::endian::little) std::reverse(raw.begin(), raw.end());
-  return std::bit_cast<Scalar>(raw);
-}
-
-template <class Scalar>
-void append(std::string& bytes, Scalar value) {
-  auto raw = std::bit_cast<std::array<char, sizeof(Scalar)>>(value);
-  if constexpr (std::endian::native != std::endian::little) std::reverse(raw.begin(), raw.end());
-  bytes.append(raw.data(), raw.size());
-}
 
 std::size_t size_of(std::uint8_t type, std::size_t offset) {
   if (type == kInt32) return sizeof(std::int32_t);
@@ -62,7 +45,7 @@ class Records {
   }
 
   std::uint32_t node(std::size_t which) const {
-    const auto node = load<std::uint64_t>(at_ + which * sizeof(std::uint64_t));
+    const auto node = load_little_endian<std::uint64_t>(at_ + which * sizeof(std::uint64_t));
     if (node >= nodes_) {
       fail("node " + std::to_string(node) + " is out of range, there are " +
            std::to_string(nodes_) + ", counted from 0");
@@ -74,11 +57,11 @@ class Records {
     const char* first = at_ + numbers_ * sizeof(std::uint64_t);
     std::int64_t value = 0;
     if (type_ == kInt32) {
-      value = load<std::int32_t>(first + which * sizeof(std::int32_t));
+      value = load_little_endian<std::int32_t>(first + which * sizeof(std::int32_t));
     } else if (type_ == kInt64) {
-      value = load<std::int64_t>(first + which * sizeof(std::int64_t));
+      value = load_little_endian<std::int64_t>(first + which * sizeof(std::int64_t));
     } else {
-      value = integer(load<double>(first + which * sizeof(double)));
+      value = integer(load_little_endian<double>(first + which * sizeof(double)));
     }
     if (value < 0) fail("the capacity is negative: " + std::to_string(value));
     if (!sum_.add(value)) fail(cut_io::kSumTooLarge);
@@ -150,14 +133,14 @@ Header read_header(std::string_view bytes) {
   }
   Header header;
   const char* at = bytes.data() + kMagic.size();
-  header.edge_type = load<std::uint8_t>(at);
-  header.terminal_type = load<std::uint8_t>(at + 1);
+  header.edge_type = load_little_endian<std::uint8_t>(at);
+  header.terminal_type = load_little_endian<std::uint8_t>(at + 1);
   const std::size_t edge_capacity = size_of(header.edge_type, kMagic.size());
   const std::size_t terminal_capacity = size_of(header.terminal_type, kMagic.size() + 1);
   at += 2;
-  header.nodes = load<std::uint64_t>(at);
-  header.terminals = load<std::uint64_t>(at + sizeof(std::uint64_t));
-  header.edges = load<std::uint64_t>(at + 2 * sizeof(std::uint64_t));
+  header.nodes = load_little_endian<std::uint64_t>(at);
+  header.terminals = load_little_endian<std::uint64_t>(at + sizeof(std::uint64_t));
+  header.edges = load_little_endian<std::uint64_t>(at + 2 * sizeof(std::uint64_t));
 
   std::size_t left = bytes.size() - kHeaderSize;
   header.terminal_bytes =
@@ -212,9 +195,9 @@ std::string encode(const CutProblem& problem, BbkCapacity type) {
   std::uint64_t terminal_count = 0;
   const auto add_terminal = [&](std::size_t i, std::int64_t source, std::int64_t sink) {
     if (source == 0 && sink == 0) return;
-    append<std::uint64_t>(terminals, i);
-    append(terminals, fitted<Capacity>(source));
-    append(terminals, fitted<Capacity>(sink));
+    append_little_endian<std::uint64_t>(terminals, i);
+    append_little_endian(terminals, fitted<Capacity>(source));
+    append_little_endian(terminals, fitted<Capacity>(sink));
     ++terminal_count;
   };
   for (std::size_t i = 0; i < nodes; ++i) {
@@ -227,20 +210,21 @@ std::string encode(const CutProblem& problem, BbkCapacity type) {
   const auto loops = std::count_if(problem.edges.begin(), problem.edges.end(), is_loop);
 
   std::string bytes(kMagic);
-  append(bytes, static_cast<std::uint8_t>(type));
-  append(bytes, static_cast<std::uint8_t>(type));
-  append<std::uint64_t>(bytes, nodes);
-  append<std::uint64_t>(bytes, terminal_count);
-  append<std::uint64_t>(bytes, problem.edges.size() - static_cast<std::size_t>(loops));
+  append_little_endian(bytes, static_cast<std::uint8_t>(type));
+  append_little_endian(bytes, static_cast<std::uint8_t>(type));
+  append_little_endian<std::uint64_t>(bytes, nodes);
+  append_little_endian<std::uint64_t>(bytes, terminal_count);
+  append_little_endian<std::uint64_t>(bytes,
+                                      problem.edges.size() - static_cast<std::size_t>(loops));
   bytes.reserve(bytes.size() + terminals.size() +
                 problem.edges.size() * 2 * (sizeof(std::uint64_t) + sizeof(Capacity)));
   bytes += terminals;
   for (const CutEdge& edge : problem.edges) {
     if (is_loop(edge)) continue;
-    append<std::uint64_t>(bytes, edge.from);
-    append<std::uint64_t>(bytes, edge.to);
-    append(bytes, fitted<Capacity>(edge.capacity));
-    append(bytes, fitted<Capacity>(edge.reverse_capacity));
+    append_little_endian<std::uint64_t>(bytes, edge.from);
+    append_little_endian<std::uint64_t>(bytes, edge.to);
+    append_little_endian(bytes, fitted<Capacity>(edge.capacity));
+    append_little_endian(bytes, fitted<Capacity>(edge.reverse_capacity));
   }
   return bytes;
 }

@@ -31,7 +31,7 @@ class DimacsReader {
       } else if (kind == "p") {
         read_problem();
       } else {
-        lines_.fail("expected a line of type c, p, n or a, found " + cut_io::quoted(kind));
+        lines_.fail("expected a line of type c, p, n or a, found " + quoted(kind));
       }
     }
     return finish();
@@ -45,7 +45,7 @@ class DimacsReader {
     problem_line_ = lines_.number();
     const std::string_view type = lines_.token();
     if (type != "max") {
-      lines_.fail("expected 'p max' (a maximum flow problem), found 'p' " + cut_io::quoted(type));
+      lines_.fail("expected 'p max' (a maximum flow problem), found 'p' " + quoted(type));
     }
     const auto ids = static_cast<std::uint64_t>(lines_.count("the number of nodes"));
     announced_ = static_cast<std::uint64_t>(lines_.count("the number of arcs"));
@@ -72,7 +72,7 @@ class DimacsReader {
     const std::uint32_t id = read_id();
     const std::string_view which = lines_.token();
     if (which != "s" && which != "t") {
-      lines_.fail("expected 's' (source) or 't' (sink), found " + cut_io::quoted(which));
+      lines_.fail("expected 's' (source) or 't' (sink), found " + quoted(which));
     }
     lines_.expect_end();
     const bool is_source = which == "s";

@@ -37,7 +37,7 @@ FlowSolution parse_solution(std::string_view text) {
       value_line = lines.number();
       solution.value = lines.count("the value of the flow");
     } else {
-      lines.fail("expected a line of type c, s, f or a, found " + cut_io::quoted(kind));
+      lines.fail("expected a line of type c, s, f or a, found " + quoted(kind));
     }
     lines.expect_end();
   }

@@ -5,15 +5,9 @@
 #include <charconv>
 #include <system_error>
 
-#include "cellocut/base/errors.h"
-
 namespace cellocut::cut_io {
 
 namespace {
-
-constexpr bool is_blank(char c) {
-  return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f';
-}
 
 void skip_blanks(std::string_view& text) {
   std::size_t blanks = 0;
@@ -28,17 +22,6 @@ void append_number(std::string& text, std::int64_t number) {
 }
 
 }  // namespace
-
-void fail_at_line(std::size_t line, const std::string& what) {
-  throw InputError("line " + std::to_string(line) + ": " + what);
-}
-
-std::string quoted(std::string_view token) {
-  constexpr std::size_t kLongest = 24;
-  std::string text = "'";
-  for (const char c : token.substr(0, kLongest)) text += (c >= ' ' && c <= '~') ? c : '?';
-  return text + (token.size() > kLongest ? "...'" : "'");
-}
 
 bool TextLines::next() {
   while (!text_.empty()) {

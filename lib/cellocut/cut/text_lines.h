@@ -7,13 +7,9 @@
 #include <string>
 #include <string_view>
 
+#include "cellocut/base/text.h"
+
 namespace cellocut::cut_io {
-
-// Throws InputError "line N: what".
-[[noreturn]] void fail_at_line(std::size_t line, const std::string& what);
-
-// A token as an error message shows it: in quotes, short, unprintable bytes replaced.
-std::string quoted(std::string_view token);
 
 // Walks through the lines of a text that are neither blank nor a comment (their first token starts
 // with 'c'), and through the blank-separated tokens of each.

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "cellocut/base/errors.h"
-#include "cellocut/mesh/byte_order.h"
+#include "cellocut/base/byte_order.h"
 #include "cellocut/mesh/mesh_file.h"
 #include "cellocut/mesh/point_merger.h"
 

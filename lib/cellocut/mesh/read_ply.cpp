@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "cellocut/mesh/byte_order.h"
+#include "cellocut/base/byte_order.h"
 #include "cellocut/mesh/mesh_readers.h"
 #include "cellocut/mesh/ply_header.h"
 #include "cellocut/mesh/soup_builder.h"

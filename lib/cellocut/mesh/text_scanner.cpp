@@ -7,17 +7,6 @@
 
 namespace cellocut::mesh_io {
 
-void fail_at_line(std::size_t line, const std::string& what) {
-  throw InputError("line " + std::to_string(line) + ": " + what);
-}
-
-std::string quoted(std::string_view token) {
-  constexpr std::size_t kLongest = 24;
-  std::string text = "'";
-  for (const char c : token.substr(0, kLongest)) text += (c >= ' ' && c <= '~') ? c : '?';
-  return text + (token.size() > kLongest ? "...'" : "'");
-}
-
 LineReader::LineReader(std::string_view text) : text_(text) {
   if (text.find('\n') == std::string_view::npos && text.find('\r') != std::string_view::npos) {
     end_of_line_ = '\r';

@@ -9,18 +9,9 @@
 #include <string_view>
 
 #include "cellocut/base/errors.h"
+#include "cellocut/base/text.h"
 
 namespace cellocut::mesh_io {
-
-// Throws InputError "line N: what".
-[[noreturn]] void fail_at_line(std::size_t line, const std::string& what);
-
-// A token as an error message shows it: in quotes, short, and with unprintable bytes replaced.
-std::string quoted(std::string_view token);
-
-constexpr bool is_blank(char c) {
-  return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f';
-}
 
 // Cuts a text into lines that end in LF or CR LF (or in CR alone, where the text holds no LF at
 // all). The last line need not be ended. Lines count from 1.

@@ -1,5 +1,4 @@
-// Scalars in the byte orders of binary mesh files, on a host of either order. Internal to mesh
-// files.
+// Scalars in the byte orders of binary files, on a host of either order.
 #pragma once
 
 #include <algorithm>
@@ -8,7 +7,7 @@
 #include <cstring>
 #include <string>
 
-namespace cellocut::mesh_io {
+namespace cellocut {
 
 template <class Scalar>
 Scalar load(const char* bytes, std::endian order) {
@@ -30,4 +29,4 @@ void append_little_endian(std::string& bytes, Scalar value) {
   bytes.append(raw.data(), raw.size());
 }
 
-}  // namespace cellocut::mesh_io
+}  // namespace cellocut

@@ -112,11 +112,11 @@ std::string encode_ply(const TriangleSoup& mesh) {
   std::string bytes = ply_header(mesh, "binary_little_endian");
   bytes.reserve(bytes.size() + 24 * mesh.points.size() + 13 * mesh.triangles.size());
   for (const Point3& point : mesh.points) {
-    for (const double coordinate : point) mesh_io::append_little_endian(bytes, coordinate);
+    for (const double coordinate : point) append_little_endian(bytes, coordinate);
   }
   for (const Triangle& triangle : mesh.triangles) {
     bytes += '\3';
-    for (const std::uint32_t corner : triangle) mesh_io::append_little_endian(bytes, corner);
+    for (const std::uint32_t corner : triangle) append_little_endian(bytes, corner);
   }
   return bytes;
 }
@@ -137,15 +137,15 @@ std::string encode_stl(const TriangleSoup& mesh) {
   }
   std::string bytes(80, ' ');
   bytes.reserve(84 + 50 * mesh.triangles.size());
-  mesh_io::append_little_endian(bytes, static_cast<std::uint32_t>(mesh.triangles.size()));
+  append_little_endian(bytes, static_cast<std::uint32_t>(mesh.triangles.size()));
   for (const Triangle& triangle : mesh.triangles) {
-    for (const float x : facet_normal(mesh, triangle)) mesh_io::append_little_endian(bytes, x);
+    for (const float x : facet_normal(mesh, triangle)) append_little_endian(bytes, x);
     for (const std::uint32_t corner : triangle) {
       for (const double x : mesh.points[corner]) {
-        mesh_io::append_little_endian(bytes, static_cast<float>(x));
+        append_little_endian(bytes, static_cast<float>(x));
       }
     }
-    mesh_io::append_little_endian(bytes, std::uint16_t{0});
+    append_little_endian(bytes, std::uint16_t{0});
   }
   return bytes;
 }

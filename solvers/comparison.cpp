@@ -29,7 +29,7 @@ void solve_once(CutSolver& solver, const CutProblem& problem, const ComparisonOp
                 SolverRun& run) {
   Deadline deadline(options.observer, options.seconds_limit);
   try {
-    CutResult result = solver.solve(problem, SolveOptions{.observer = &deadline});
+    CutResult result = solver.solve(problem, SolveOptions{.observer = &deadline, .relaxation = options.relaxation});
     run.build_seconds.push_back(result.build_seconds);
     run.solve_seconds.push_back(result.solve_seconds);
     run.verify_seconds.push_back(result.verify_seconds);
@@ -40,6 +40,16 @@ void solve_once(CutSolver& solver, const CutProblem& problem, const ComparisonOp
     if (options.observer != nullptr) options.observer->check();
     run.refused = "over the time limit";
   }
+}
+
+// Every minimum cut holds the smallest source side and is held by the largest.
+bool lies_between(const CutLabels& labels, const CutResult& exact) {
+  for (std::size_t i = 0; i < labels.size(); ++i) {
+    if (labels[i] < exact.smallest_source_side[i] || labels[i] > exact.largest_source_side[i]) {
+      return false;
+    }
+  }
+  return true;
 }
 
 }  // namespace
@@ -66,24 +76,49 @@ std::vector<SolverRun> compare_solvers(const CutProblem& problem,
 }
 
 std::string find_disagreement(const std::vector<SolverRun>& runs) {
+  const auto wrong = [](const SolverRun& run, const std::string& what) {
+    return "solver '" + run.info.name + "': " + what;
+  };
   const SolverRun* first = nullptr;
   for (const SolverRun& run : runs) {
-    if (!run.refused.empty() || !run.info.exact) continue;
-    const auto wrong = [&](const std::string& what) {
-      return "solver '" + run.info.name + "': " + what;
-    };
-    if (run.result.status != CutStatus::optimal) return wrong(run.result.message);
+    if (!run.refused.empty()) continue;
+    if (run.result.status == CutStatus::invalid) return wrong(run, run.result.message);
+    if (!run.result.canonical) {
+      if (run.info.exact) return wrong(run, "no maximum flow");
+      continue;
+    }
     if (first == nullptr) {
       first = &run;
       continue;
     }
     if (run.result.value != first->result.value) {
-      return wrong("value " + std::to_string(run.result.value) + ", but '" + first->info.name +
-                   "' has " + std::to_string(first->result.value));
+      return wrong(run, "value " + std::to_string(run.result.value) + ", but '" +
+                            first->info.name + "' has " + std::to_string(first->result.value));
     }
     if (run.result.smallest_source_side != first->result.smallest_source_side ||
         run.result.largest_source_side != first->result.largest_source_side) {
-      return wrong("other canonical labellings than '" + first->info.name + "'");
+      return wrong(run, "other canonical labellings than '" + first->info.name + "'");
+    }
+  }
+  for (const SolverRun& run : runs) {
+    if (!run.refused.empty() || run.result.canonical) continue;
+    // Without an exact result the relaxations are held against each other.
+    for (const SolverRun& other : runs) {
+      if (!other.refused.empty() || run.result.lower_bound <= other.result.value) continue;
+      return wrong(run, "lower bound " + std::to_string(run.result.lower_bound) + ", but '" +
+                            other.info.name + "' has a cut of " +
+                            std::to_string(other.result.value));
+    }
+    if (first == nullptr) continue;
+    if (run.result.value < first->result.value ||
+        (run.result.status == CutStatus::optimal && run.result.value != first->result.value)) {
+      return wrong(run, "value " + std::to_string(run.result.value) + ", but '" +
+                            first->info.name + "' has " + std::to_string(first->result.value));
+    }
+    if (run.result.status == CutStatus::optimal &&
+        !lies_between(run.result.largest_source_side, first->result)) {
+      return wrong(run,
+                   "a labelling outside of the canonical ones of '" + first->info.name + "'");
     }
   }
   return {};

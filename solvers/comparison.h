@@ -22,6 +22,7 @@ struct ComparisonOptions {
   int repeats = 1;                   // 1 to 1000
   // A solver that takes longer for one solve is given up (where it can be cancelled); 0: never.
   double seconds_limit = 0;
+  RelaxationOptions relaxation{};
   Observer* observer = nullptr;
 };
 
@@ -30,8 +31,10 @@ struct ComparisonOptions {
 // Errors: UsageError for a name that is not built; InputError as CutProblem::validate; Cancelled.
 std::vector<SolverRun> compare_solvers(const CutProblem& problem, const ComparisonOptions& options);
 
-// Exact solvers must return the same value and both the same canonical labellings, and every result
-// must be proved by its flow. What is wrong, naming the solver; empty where nothing is.
+// Results with a flow must have the same value and both the same canonical labellings, and every
+// result must be proved. A relaxation without a flow must agree with them: where it claims a proof,
+// its value is theirs and its labelling lies between the canonical ones; where it leaves a gap, its
+// bound and its value enclose theirs. What is wrong, naming the solver; empty where nothing is.
 std::string find_disagreement(const std::vector<SolverRun>& runs);
 
 // Of an odd number of values the middle one, of an even number the mean of the two. Precondition:

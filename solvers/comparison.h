@@ -23,6 +23,7 @@ struct ComparisonOptions {
   // A solver that takes longer for one solve is given up (where it can be cancelled); 0: never.
   double seconds_limit = 0;
   RelaxationOptions relaxation{};
+  bool reduce = false;  // as in SolveOptions
   Observer* observer = nullptr;
 };
 

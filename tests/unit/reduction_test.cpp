@@ -108,6 +108,22 @@ TEST(Reduction, ADominatedNodeBecomesSourcesOfItsNeighbours) {
   EXPECT_EQ(reduction.lift(left.edge_flow), (std::vector<std::int64_t>{2, -1, 0}));
 }
 
+// Labels of a minimum cut of what is left, lifted, are those of a minimum cut of the whole.
+TEST(Reduction, LiftsLabels) {
+  for (const testing::RandomShape shape : testing::random_shapes()) {
+    for (std::uint64_t seed = 1; seed <= 30; ++seed) {
+      SCOPED_TRACE(std::string(testing::to_string(shape)) + " " + std::to_string(seed));
+      const CutProblem problem = testing::random_problem(shape, seed);
+      const Reduction reduction(problem);
+      const CutLabels left = solvers::make("bk")->solve(reduction.problem()).smallest_source_side;
+      const std::vector<float> lifted =
+          reduction.lift_values(std::vector<float>(left.begin(), left.end()));
+      EXPECT_EQ(cut_cost(problem, CutLabels(lifted.begin(), lifted.end())),
+                solvers::make("bk")->solve(problem).value);
+    }
+  }
+}
+
 // A chain whose weakest link is the second: the ends of the others are joined.
 TEST(Reduction, AChainKeepsItsWeakestEdge) {
   const CutProblem problem{

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "cellocut/base/stopwatch.h"
+#include "cellocut/cut/reduction.h"
 
 namespace cellocut {
 
@@ -115,8 +116,9 @@ void judge_relaxation(const CutProblem& problem, RelaxedOutput& output, CutResul
   }
   const bool proved = result.lower_bound == result.value;
   if ((output.stop == "proof") != proved) {
-    result.message = proved ? "the bound is a proof, but the solver says it stopped at: " + output.stop
-                            : "the solver claims a proof, but the bound leaves a gap";
+    result.message = proved
+                         ? "the bound is a proof, but the solver says it stopped at: " + output.stop
+                         : "the solver claims a proof, but the bound leaves a gap";
     return;
   }
   result.smallest_source_side = output.labels;
@@ -154,7 +156,8 @@ std::int64_t dual_bound(const CutProblem& problem, const std::vector<DualFlow>& 
   }
   DualFlow bound = to_dual_units(problem.constant);
   for (std::size_t i = 0; i < out.size(); ++i) {
-    bound += std::min(to_dual_units(problem.to_source[i]), to_dual_units(problem.to_sink[i]) + out[i]);
+    bound +=
+        std::min(to_dual_units(problem.to_source[i]), to_dual_units(problem.to_sink[i]) + out[i]);
   }
   // Costs are integers, so the bound may be rounded up. Division rounds towards zero.
   const DualFlow unit = to_dual_units(1);
@@ -170,6 +173,27 @@ std::vector<std::int64_t> node_balances(const CutProblem& problem,
     out[problem.edges[e].to] -= edge_flow[e];
   }
   return out;
+}
+
+SolverOutput CutSolver::solve_reduced(const CutProblem& problem, SolveContext& context) {
+  const Reduction reduction(problem);
+  const double reduced = context.seconds();
+  SolverOutput output = do_solve(reduction.problem(), context);
+  // What the solver returns is judged as a whole, so a flow of the wrong size is left as it is.
+  if (output.edge_flow.size() == reduction.problem().edges.size()) {
+    output.edge_flow = reduction.lift(output.edge_flow);
+  }
+  if (output.relaxed && output.relaxed->relaxed.size() == reduction.problem().node_count()) {
+    output.relaxed->relaxed = reduction.lift_values(output.relaxed->relaxed);
+  }
+  const ReductionCounts& counts = reduction.counts();
+  output.counters.insert(output.counters.end(),
+                         {{"reduced_unreachable", counts.unreachable},
+                          {"reduced_dominated", counts.dominated},
+                          {"reduced_heavy_edges", counts.heavy_edges},
+                          {"reduced_isolated", counts.isolated},
+                          {"reduction_microseconds", static_cast<std::int64_t>(1e6 * reduced)}});
+  return output;
 }
 
 CutResult CutSolver::solve(const CutProblem& problem, const SolveOptions& options) {
@@ -190,7 +214,9 @@ CutResult CutSolver::solve(const CutProblem& problem, const SolveOptions& option
   CutResult result;
   SolveContext context(options);
   Stopwatch stopwatch;
-  SolverOutput output = do_solve(problem, context);
+  const bool flow_expected = info().exact || options.relaxation.crossover;
+  SolverOutput output = options.reduce && flow_expected ? solve_reduced(problem, context)
+                                                        : do_solve(problem, context);
   const double total = stopwatch.seconds();
   result.build_seconds = std::max(0.0, context.built_at());
   result.solve_seconds = total - result.build_seconds;

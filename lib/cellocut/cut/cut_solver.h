@@ -10,9 +10,9 @@
 // A relaxation delivers a labelling and a dual flow instead: one value per edge within its
 // capacities, that need not balance. By weak duality no labelling costs less than
 //     constant + sum over nodes i of min(to_source[i], to_sink[i] + net flow out of i),
-// which is evaluated here in 128-bit integers from flows in multiples of 2^-24 and rounded up. Where
-// that bound meets the cost of the labelling, the labelling is proved to be a minimum cut, one of
-// possibly many; where it does not, both are what is known (status `gap`).
+// which is evaluated here in 128-bit integers from flows in multiples of 2^-24 and rounded up.
+// Where that bound meets the cost of the labelling, the labelling is proved to be a minimum cut,
+// one of possibly many; where it does not, both are what is known (status `gap`).
 #pragma once
 
 #include <cstdint>
@@ -57,11 +57,14 @@ struct RelaxationOptions {
 struct SolveOptions {
   Observer* observer = nullptr;  // polled for cancellation; may be null
   RelaxationOptions relaxation{};
+  // Reduce the problem exactly before the search (reduction.h); what that removed is among the
+  // counters, its time counts as building. A relaxation without crossover takes no notice.
+  bool reduce = false;
 };
 
 struct CutResult {
   CutStatus status = CutStatus::invalid;
-  std::string message;                  // why the status is `invalid`; empty otherwise
+  std::string message;  // why the status is `invalid`; empty otherwise
   // Whether edge_flow is a maximum flow and both labellings are the canonical ones. False for a
   // relaxation without crossover: edge_flow is empty and both labellings are the one that it
   // rounded to, which is a minimum cut where the status is `optimal`.
@@ -141,6 +144,7 @@ class CutSolver {
   // Returns a maximum flow: per edge the net flow from `from` to `to`; or, of a relaxation without
   // crossover, no flow and `relaxed`.
   virtual SolverOutput do_solve(const CutProblem& problem, SolveContext& context) = 0;
+  SolverOutput solve_reduced(const CutProblem& problem, SolveContext& context);
 };
 
 // The flow into node i from the source and out of it to the sink that go with a balance

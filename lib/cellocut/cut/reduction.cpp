@@ -80,6 +80,7 @@ Reducer::Reducer(const CutProblem& problem, Reduction& result)
       dead_(problem.edges.size(), 0),
       gone_(problem.node_count(), 0),
       waiting_(problem.node_count(), 0) {
+  result.alone_.assign(problem.node_count(), 0);
   std::iota(parent_.begin(), parent_.end(), 0U);
   for (std::size_t i = 0; i < terminal_.size(); ++i) {
     terminal_[i] = problem.to_source[i] - problem.to_sink[i];
@@ -132,6 +133,7 @@ void Reducer::drop_unreachable() {
   for (std::uint32_t i = 0; i < terminal_.size(); ++i) {
     if ((source[i] & sink[i]) != 0 || first_[i] == kNone) continue;
     gone_[i] = 1;
+    result_.alone_[i] = source[i];
     ++result_.counts_.unreachable;
     for (std::uint32_t half = first_[i]; half != kNone; half = next_[half]) dead_[half / 2] = 1;
   }
@@ -190,6 +192,7 @@ void Reducer::give(std::uint32_t i, bool source) {
     wake(j);
   }
   gone_[i] = 1;
+  result_.alone_[i] = source ? 1 : 0;
   ++result_.counts_.dominated;
 }
 
@@ -260,7 +263,10 @@ void Reducer::collect() {
   std::vector<std::uint32_t> number(terminal_.size(), kNone);
   for (std::uint32_t i = 0; i < terminal_.size(); ++i) {
     if (used[i] == 0) {
-      if (gone_[i] == 0) ++result_.counts_.isolated;
+      if (gone_[i] == 0) {
+        result_.alone_[i] = terminal_[i] > 0 ? 1 : 0;
+        ++result_.counts_.isolated;
+      }
       continue;
     }
     number[i] = static_cast<std::uint32_t>(left.to_source.size());
@@ -277,8 +283,7 @@ void Reducer::collect() {
   }
 }
 
-Reduction::Reduction(const CutProblem& problem, const ReductionRules& rules)
-    : node_count_(problem.node_count()) {
+Reduction::Reduction(const CutProblem& problem, const ReductionRules& rules) {
   if (problem.edges.size() >= kNone / 2) {
     throw LimitError("cut problem: too many edges to be reduced");
   }
@@ -290,7 +295,7 @@ Reduction::Reduction(const CutProblem& problem, const ReductionRules& rules)
 
 std::vector<std::int64_t> Reduction::lift(const std::vector<std::int64_t>& edge_flow) const {
   std::vector<std::int64_t> flow(edge_left_.size(), 0);
-  std::vector<std::int64_t> net(node_count_, 0);  // out of a node along its edges
+  std::vector<std::int64_t> net(alone_.size(), 0);  // out of a node along its edges
   for (std::size_t e = 0; e < edge_left_.size(); ++e) {
     if (edge_left_[e] == kNone) continue;
     flow[e] = edge_flow[edge_left_[e]];
@@ -329,6 +334,15 @@ std::vector<std::int64_t> Reduction::lift(const std::vector<std::int64_t>& edge_
     set_out(move->half, part - elsewhere);
   }
   return flow;
+}
+
+std::vector<float> Reduction::lift_values(const std::vector<float>& values) const {
+  std::vector<float> lifted(alone_.begin(), alone_.end());
+  for (std::size_t i = 0; i < node_left_.size(); ++i) lifted[node_left_[i]] = values[i];
+  for (auto move = moves_.rbegin(); move != moves_.rend(); ++move) {
+    if (move->step == Step::join) lifted[move->node] = lifted[move->into];
+  }
+  return lifted;
 }
 
 }  // namespace cellocut

@@ -48,6 +48,10 @@ class Reduction {
   // A maximum flow of the whole problem from one of what is left. O(nodes + edges).
   [[nodiscard]] std::vector<std::int64_t> lift(const std::vector<std::int64_t>& edge_flow) const;
 
+  // Values per node of the whole from those of what is left: joined nodes have the same, nodes that
+  // were decided 1 on the source side and 0 on the sink side. O(nodes + edges).
+  [[nodiscard]] std::vector<float> lift_values(const std::vector<float>& values) const;
+
  private:
   enum class Step : std::uint8_t { give, join, merge };
   // A half is an edge seen from one of its ends: 2e from `from`, 2e + 1 from `to`.
@@ -65,7 +69,7 @@ class Reduction {
   std::vector<Move> moves_;
   std::vector<std::uint32_t> others_;     // halves of a node that was joined to another
   std::vector<std::uint32_t> edge_left_;  // per edge of the whole: its place in what is left
-  std::size_t node_count_ = 0;
+  std::vector<std::uint8_t> alone_;       // per node of the whole: the side it is on by itself
   std::vector<std::uint32_t> node_left_;  // per node of what is left: the node of the whole
   CutProblem left_;
   ReductionCounts counts_;

@@ -157,9 +157,6 @@ bool Relaxation::should_stop() {
 }
 
 void Relaxation::run() {
-#ifdef LPDEBUG
- double tr=0,tc=0; Stopwatch w;
-#endif
   while (true) {
     ++iteration_;
     if (iteration_ % kSampleInterval == 0) {
@@ -172,28 +169,13 @@ void Relaxation::run() {
     const bool last = iteration_ >= options_.iteration_limit ||
                       (options_.seconds_limit > 0 && context_.seconds() > options_.seconds_limit);
     if (iteration_ >= next_rounding_ || last) {
-#ifdef LPDEBUG
- w.restart();
-#endif
       round(last);
-#ifdef LPDEBUG
- tr+=w.seconds();
-#endif
       next_rounding_ = iteration_ + std::max(kCheckInterval, iteration_ / 5);
       if (should_stop()) return;
     }
     if (iteration_ % kCheckInterval == 0) {
-#ifdef LPDEBUG
- w.restart();
-#endif
       consider_restart();
-#ifdef LPDEBUG
- tc+=w.seconds();
-#endif
     }
-#ifdef LPDEBUG
-    if (iteration_ % 256 == 0) std::fprintf(stderr, "%ld t %.3f tr %.3f tc %.3f gap %.3g step %g weight %g restarts %ld value %ld bound gap %ld sweeps %ld\n", iteration_, context_.seconds(), tr, tc, operator_.gap().size(), steps_.step, steps_.weight, restarts_, value_, value_-lower_bound_, repairs_.sweeps);
-#endif
   }
 }
 

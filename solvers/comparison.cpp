@@ -29,7 +29,8 @@ void solve_once(CutSolver& solver, const CutProblem& problem, const ComparisonOp
                 SolverRun& run) {
   Deadline deadline(options.observer, options.seconds_limit);
   try {
-    CutResult result = solver.solve(problem, SolveOptions{.observer = &deadline, .relaxation = options.relaxation});
+    CutResult result = solver.solve(
+        problem, SolveOptions{.observer = &deadline, .relaxation = options.relaxation});
     run.build_seconds.push_back(result.build_seconds);
     run.solve_seconds.push_back(result.solve_seconds);
     run.verify_seconds.push_back(result.verify_seconds);
@@ -92,8 +93,8 @@ std::string find_disagreement(const std::vector<SolverRun>& runs) {
       continue;
     }
     if (run.result.value != first->result.value) {
-      return wrong(run, "value " + std::to_string(run.result.value) + ", but '" +
-                            first->info.name + "' has " + std::to_string(first->result.value));
+      return wrong(run, "value " + std::to_string(run.result.value) + ", but '" + first->info.name +
+                            "' has " + std::to_string(first->result.value));
     }
     if (run.result.smallest_source_side != first->result.smallest_source_side ||
         run.result.largest_source_side != first->result.largest_source_side) {
@@ -112,13 +113,12 @@ std::string find_disagreement(const std::vector<SolverRun>& runs) {
     if (first == nullptr) continue;
     if (run.result.value < first->result.value ||
         (run.result.status == CutStatus::optimal && run.result.value != first->result.value)) {
-      return wrong(run, "value " + std::to_string(run.result.value) + ", but '" +
-                            first->info.name + "' has " + std::to_string(first->result.value));
+      return wrong(run, "value " + std::to_string(run.result.value) + ", but '" + first->info.name +
+                            "' has " + std::to_string(first->result.value));
     }
     if (run.result.status == CutStatus::optimal &&
         !lies_between(run.result.largest_source_side, first->result)) {
-      return wrong(run,
-                   "a labelling outside of the canonical ones of '" + first->info.name + "'");
+      return wrong(run, "a labelling outside of the canonical ones of '" + first->info.name + "'");
     }
   }
   return {};

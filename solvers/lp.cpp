@@ -1,6 +1,50 @@
 // lp: the linear relaxation of the minimum cut by a primal-dual hybrid gradient method.
 //
-// PAGE
+// Definition. A labelling is a point x in {0, 1}^n; letting x be anything in [0, 1] gives
+//     min over x in [0,1]^n of  constant + sum to_source_i (1 - x_i) + sum to_sink_i x_i
+//                               + sum capacity_e (x_from - x_to)+ + reverse_e (x_to - x_from)+ ,
+// whose value is that of the minimum cut (the matrix is totally unimodular): every threshold of an
+// optimal x is a minimum cut. Its dual is a flow y within the capacities that need not balance,
+// worth sum min(to_source_i, to_sink_i + net flow out of i). The method alternates steps
+//     y <- clip(y + sigma_e (xbar_from - xbar_to)),  x <- clip(x - tau_i (t_i + net outflow)),
+// with xbar = 2 x_new - x_old, in the manner of PDLP:
+//   preconditioning  sigma_e = step * weight * c_e / 2, tau_i = step / (weight * sum of c_e at i),
+//                    c_e the larger capacity: with step = 1 the method converges (Pock, Chambolle),
+//   step size        as long as the movement of the last sampled iteration allows,
+//   restarts         from the average of the sampled iterations or from where it is, whichever has
+//   the
+//                    smaller gap, where that has fallen far, or has fallen and rises, or at length,
+//   primal weight    after each restart moved towards the ratio of the ways of y and x.
+//
+// Proof. At times x is rounded at its best threshold, exactly in integers, and y is rounded to
+// integers and repaired for that labelling (lp/rounding.h). Both claims are recomputed by
+// cut_solver.cpp. It stops at a proof, at a stated gap, at a limit of time or of iterations.
+// Then, unless it is told not to, the dual flow is completed to a maximum flow by bk
+// (lp/crossover.h); what that added to the value is the counter `crossover_added`, 0 after a proof.
+//
+// Files. lp/reordering: neighbours close together. lp/operator: arrays, iteration, restart.
+// lp/rounding: threshold and repair. lp/crossover: to a maximum flow.
+//
+// Invariants. (1) x and y are feasible after every step, so every gap that is measured is one. (2)
+// value_ >= minimum cut >= lower_bound_, and value_ never rises, lower_bound_ never falls. (3) All
+// but the time limit is the same bit for bit for any number of threads.
+//
+// Complexity. O(n + m) per iteration, all cores; the gap of a linear program falls linearly with
+// restarts at a rate that depends on the instance, and no bound in n and m is known. Where an
+// iteration in 32-bit floats can no longer tell, the repair must finish; with very unlike
+// capacities it may not, and the iteration limit stops it.
+//
+// References.
+//   D. Applegate et al.: Practical large-scale linear programming using primal-dual hybrid
+//   gradient. NeurIPS 2021 (PDLP). D. Applegate, O. Hinder, H. Lu, M. Lubin: Faster first-order
+//   primal-dual methods for linear programming using restarts and sharpness. Mathematical
+//   Programming 201, 2023. A. Chambolle, T. Pock: A first-order primal-dual algorithm for convex
+//   problems with applications to imaging. JMIV 40(1), 2011. T. Pock, A. Chambolle: Diagonal
+//   preconditioning for first order primal-dual algorithms in convex optimization. ICCV 2011.
+//
+// Licence: GPL-3.0-or-later, this project's own code, with Eigen (MPL-2.0) and TBB (Apache-2.0).
+// Capabilities: a relaxation; exact with crossover; every valid problem, all cores, can be
+// cancelled.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -80,8 +124,8 @@ void Relaxation::adapt_step(const lp::Movement& movement) {
   const double limit =
       0.5 * (weight * movement.primal + movement.dual / weight) / std::abs(movement.cross);
   const double samples = static_cast<double>(iteration_ / kSampleInterval) + 1;
-  const double step = std::min((1 - std::pow(samples, -0.3)) * limit,
-                               (1 + std::pow(samples, -0.6)) * steps_.step);
+  const double step =
+      std::min((1 - std::pow(samples, -0.3)) * limit, (1 + std::pow(samples, -0.6)) * steps_.step);
   steps_.step = static_cast<float>(std::clamp(step, 1.0, 4.0));
 }
 
@@ -164,7 +208,7 @@ void Relaxation::run() {
     } else {
       operator_.iterate(steps_);
     }
-    if (iteration_ % (kCheckInterval / 2) != 0) continue;
+    if (iteration_ % (kCheckInterval / 2) != 0 && iteration_ < options_.iteration_limit) continue;
     context_.check();
     const bool last = iteration_ >= options_.iteration_limit ||
                       (options_.seconds_limit > 0 && context_.seconds() > options_.seconds_limit);
@@ -173,16 +217,14 @@ void Relaxation::run() {
       next_rounding_ = iteration_ + std::max(kCheckInterval, iteration_ / 5);
       if (should_stop()) return;
     }
-    if (iteration_ % kCheckInterval == 0) {
-      consider_restart();
-    }
+    if (iteration_ % kCheckInterval == 0) consider_restart();
   }
 }
 
 SolverOutput Relaxation::output() {
   SolverOutput output;
-  const auto fractional = std::count_if(relaxed_.begin(), relaxed_.end(),
-                                        [](float x) { return x > 0 && x < 1; });
+  const auto fractional =
+      std::count_if(relaxed_.begin(), relaxed_.end(), [](float x) { return x > 0 && x < 1; });
   output.counters = {{"iterations", iteration_},
                      {"restarts", restarts_},
                      {"roundings", roundings_},
@@ -229,8 +271,7 @@ class LinearRelaxation final : public CutSolver {
       i.name = "lp";
       i.summary = "the linear relaxation by a primal-dual hybrid gradient method, with crossover";
       i.licence = "GPL-3.0-or-later AND MPL-2.0 AND Apache-2.0";
-      i.reference =
-          "Applegate et al., NeurIPS 2021 (PDLP); Chambolle and Pock, JMIV 40(1), 2011";
+      i.reference = "Applegate et al., NeurIPS 2021 (PDLP); Chambolle and Pock, JMIV 40(1), 2011";
       i.exact = false;
       return i;
     }();

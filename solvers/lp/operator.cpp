@@ -173,8 +173,7 @@ Movement Operator::pass(const Steps& steps) {
       }
       Map x(x_.data() + p);
       const ConstMap inverse_degree(inverse_degree_.data() + p);
-      const Lanes moved =
-          (x - primal_step * inverse_degree * gradient).min(1.0F).max(0.0F);
+      const Lanes moved = (x - primal_step * inverse_degree * gradient).min(1.0F).max(0.0F);
       if constexpr (kSampled) {
         const Lanes step = moved - x;
         sum.primal += static_cast<double>(
@@ -239,22 +238,21 @@ Movement Operator::restart(bool from_average) {
     load_average(x_, y_);
     extrapolated_ = x_;
   }
-  const MovementSum movement =
-      over_blocks<MovementSum>([&](std::size_t begin, std::size_t end) {
-        MovementSum sum;
-        const auto squares = [](const auto& step, const auto& size) {
-          return static_cast<double>((size > 0).select(step * step / size, 0.0F).sum());
-        };
-        const auto first = static_cast<Eigen::Index>(begin * kLanes);
-        const auto count = static_cast<Eigen::Index>((end - begin) * kLanes);
-        sum.primal = squares(x_.segment(first, count) - x_start_.segment(first, count),
-                             inverse_degree_.segment(first, count));
-        const auto slot = static_cast<Eigen::Index>(row_[begin]);
-        const auto slots = static_cast<Eigen::Index>(row_[end] - row_[begin]);
-        sum.dual = squares(y_.segment(slot, slots) - y_start_.segment(slot, slots),
-                           upper_.segment(slot, slots).max(-lower_.segment(slot, slots)));
-        return sum;
-      });
+  const MovementSum movement = over_blocks<MovementSum>([&](std::size_t begin, std::size_t end) {
+    MovementSum sum;
+    const auto squares = [](const auto& step, const auto& size) {
+      return static_cast<double>((size > 0).select(step * step / size, 0.0F).sum());
+    };
+    const auto first = static_cast<Eigen::Index>(begin * kLanes);
+    const auto count = static_cast<Eigen::Index>((end - begin) * kLanes);
+    sum.primal = squares(x_.segment(first, count) - x_start_.segment(first, count),
+                         inverse_degree_.segment(first, count));
+    const auto slot = static_cast<Eigen::Index>(row_[begin]);
+    const auto slots = static_cast<Eigen::Index>(row_[end] - row_[begin]);
+    sum.dual = squares(y_.segment(slot, slots) - y_start_.segment(slot, slots),
+                       upper_.segment(slot, slots).max(-lower_.segment(slot, slots)));
+    return sum;
+  });
   x_start_ = x_;
   y_start_ = y_;
   x_sum_.setZero();

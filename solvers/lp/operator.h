@@ -5,10 +5,11 @@
 //     min over x, max over y of   sum t_i x_i + sum y_e (x_from - x_to).
 //
 // Layout. Nodes are sorted by degree within windows; eight nodes make a slice, and arc j of all
-// eight sits side by side (SELL-8). The caller gives neighbours numbers close together. Each node holds its own copy of
-// the dual flow of its edges, counted outwards, so that one pass over the nodes does the dual step
-// and the primal step: both copies of an edge are updated by the same operations with opposite
-// signs and stay exact opposites. Rows are padded with arcs without capacity.
+// eight sits side by side (SELL-8). The caller gives neighbours numbers close together. Each node
+// holds its own copy of the dual flow of its edges, counted outwards, so that one pass over the
+// nodes does the dual step and the primal step: both copies of an edge are updated by the same
+// operations with opposite signs and stay exact opposites. Rows are padded with arcs without
+// capacity.
 //
 // Numbers are 32-bit floats in units of the mean capacity: the pass is bound by memory, and what
 // they cannot resolve is repaired in integers (rounding.h). Nothing depends on the order in which
@@ -50,8 +51,8 @@ class Operator {
   void iterate(const Steps& steps);
   Movement iterate_sampled(const Steps& steps);
 
-  // Values of the relaxation at the current point and at the average since the last restart, without
-  // the part that no labelling changes. Both points are feasible, so the gap is a true one.
+  // Values of the relaxation at the current point and at the average since the last restart,
+  // without the part that no labelling changes. Both points are feasible, so the gap is a true one.
   [[nodiscard]] Gap gap() const { return gap_of(x_, y_); }
   [[nodiscard]] Gap average_gap() const;
   // Goes on from the average or from where it is, and forgets the average. The movement is that
@@ -92,7 +93,7 @@ class Operator {
   Eigen::ArrayXf terminal_;                // t, per position
   Eigen::ArrayXf inverse_degree_;
   Eigen::ArrayXf x_, extrapolated_, next_extrapolated_, y_;
-  Eigen::ArrayXf x_sum_, y_sum_;    // over the sampled iterations since the restart
+  Eigen::ArrayXf x_sum_, y_sum_;      // over the sampled iterations since the restart
   Eigen::ArrayXf x_start_, y_start_;  // at the restart
   std::int64_t samples_ = 0;
 };

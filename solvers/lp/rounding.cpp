@@ -187,8 +187,7 @@ void round_at_best_threshold(const CutProblem& problem, const ResidualGraph& gra
     cost -= graph.terminal[i];
     for (std::uint32_t a = graph.row[i]; a < graph.row[i + 1]; ++a) {
       const Arc arc = graph.arcs[a];
-      cost += side[arc.head] != 0 ? -graph.residual[arc.id ^ 1U]
-                                  : graph.residual[arc.id];
+      cost += side[arc.head] != 0 ? -graph.residual[arc.id ^ 1U] : graph.residual[arc.id];
     }
     side[i] = 1;
     const bool group_ends = k + 1 == order.size() || relaxed[order[k + 1]] != relaxed[i];
@@ -224,8 +223,7 @@ IntegerFlow rounded_flow(const ResidualGraph& graph, const Operator& iteration) 
 std::int64_t repair(const ResidualGraph& graph, IntegerFlow& flow, const CutLabels& labels,
                     std::int64_t effort, RepairCounts& counts) {
   saturate_cut(graph, flow, labels);
-  const std::int64_t source_gap =
-      SideRepair<1>(graph, flow, labels, counts).run(effort);
+  const std::int64_t source_gap = SideRepair<1>(graph, flow, labels, counts).run(effort);
   return source_gap + SideRepair<-1>(graph, flow, labels, counts).run(effort);
 }
 

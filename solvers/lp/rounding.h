@@ -36,9 +36,8 @@ struct RepairCounts {
 // iteration almost does that, so here, in integers: cut edges are saturated, and then, on each side
 // apart, what is missing at some nodes is moved there from nodes near by that can spare it, along
 // residual arcs towards the nearest node in need, a breadth-first search and a sweep over it at a
-// time. Nothing that a sweep does makes the gap larger. It stops after about `effort` arcs on each side; where
-// the labelling is not a minimum cut, a gap stays.
-// Returns the gap that is left.
+// time. Nothing that a sweep does makes the gap larger. It stops after about `effort` arcs on each
+// side; where the labelling is not a minimum cut, a gap stays. Returns the gap that is left.
 std::int64_t repair(const ResidualGraph& graph, IntegerFlow& flow, const CutLabels& labels,
                     std::int64_t effort, RepairCounts& counts);
 

@@ -2,10 +2,10 @@
 //
 // Definition. An adapter: CutProblem -> the linear program of the maximum flow, one variable per
 // edge between minus its reverse and its capacity and one per terminal arc, one balance per node ->
-// an LP file in a temporary folder -> the program `clp` -> its binary solution -> net flow per edge.
-// Its matrix is totally unimodular, so a simplex method ends at an integral flow: basic solutions
-// are sums and differences of capacities, which doubles hold exactly. Values are rounded to the
-// nearest integer, and the flow is checked as that of any solver.
+// an LP file in a temporary folder -> the program `clp` -> its binary solution -> net flow per
+// edge. Its matrix is totally unimodular, so a simplex method ends at an integral flow: basic
+// solutions are sums and differences of capacities, which doubles hold exactly. Values are rounded
+// to the nearest integer, and the flow is checked as that of any solver.
 //
 // Why a program. The library's licence (EPL-2.0) forbids linking it into this program.
 //
@@ -175,8 +175,7 @@ std::vector<double> read_columns(const std::string& path, std::size_t columns) {
   std::array<std::int32_t, 2> counts{};
   file.read(reinterpret_cast<char*>(counts.data()), sizeof(counts));
   std::vector<double> values(columns);
-  if (file && counts[0] >= 0 && counts[1] >= 0 &&
-      static_cast<std::size_t>(counts[1]) == columns) {
+  if (file && counts[0] >= 0 && counts[1] >= 0 && static_cast<std::size_t>(counts[1]) == columns) {
     file.ignore(static_cast<std::streamsize>(sizeof(double)) * (1 + 2 * std::int64_t{counts[0]}));
     file.read(reinterpret_cast<char*>(values.data()),
               static_cast<std::streamsize>(columns * sizeof(double)));

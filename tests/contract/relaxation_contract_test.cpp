@@ -1,6 +1,6 @@
 // What a relaxation owes its callers beyond what every solver does: a labelling, a bound that is
-// proved, a reason why it stopped, the same bits for any number of threads; and that the shared code
-// finds out a relaxation that is wrong.
+// proved, a reason why it stopped, the same bits for any number of threads; and that the shared
+// code finds out a relaxation that is wrong.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
@@ -74,10 +74,10 @@ TEST_P(RelaxedShape, EnclosesTheExactValue) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     const CutProblem problem = testing::random_problem(GetParam(), seed);
     const CutResult exact = solvers::make("ibfs")->solve(problem);
-    proved += expect_relaxation(problem, solvers::make("lp")->solve(problem, without_crossover()),
-                                exact)
-                  ? 1
-                  : 0;
+    proved +=
+        expect_relaxation(problem, solvers::make("lp")->solve(problem, without_crossover()), exact)
+            ? 1
+            : 0;
     if (HasFailure()) break;
   }
   RecordProperty("proved", static_cast<int>(proved));
@@ -276,8 +276,7 @@ INSTANTIATE_TEST_SUITE_P(Sizes, WrongRelaxation,
 
 TEST(WrongRelaxationOutput, AnExactSolverMayNotLeaveOutItsFlow) {
   const Case c = sound_case(5);
-  EXPECT_EQ(Fixed(c.output, true).solve(c.problem, without_crossover()).status,
-            CutStatus::invalid);
+  EXPECT_EQ(Fixed(c.output, true).solve(c.problem, without_crossover()).status, CutStatus::invalid);
   // Nor may a relaxation that was asked for one.
   EXPECT_EQ(Fixed(c.output).solve(c.problem).status, CutStatus::invalid);
 }

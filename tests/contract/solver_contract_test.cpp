@@ -244,7 +244,8 @@ TEST(SolverTable, ListsEveryVariantOnceBuiltOrWithAReason) {
     EXPECT_TRUE(names.insert(variant.name).second) << variant.name;
     EXPECT_EQ(variant.make == nullptr, !variant.not_built.empty()) << variant.name;
   }
-  for (const char* name : {"bk", "push_relabel", "ibfs", "lp", "libmaxflow", "lemon_preflow", "clp"}) {
+  for (const char* name :
+       {"bk", "push_relabel", "ibfs", "lp", "libmaxflow", "lemon_preflow", "clp"}) {
     EXPECT_EQ(names.count(name), 1U) << name;
   }
   EXPECT_THAT(built_solvers(), ::testing::IsSupersetOf({"bk", "push_relabel", "ibfs", "lp"}));

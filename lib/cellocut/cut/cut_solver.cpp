@@ -115,8 +115,9 @@ void judge_relaxation(const CutProblem& problem, RelaxedOutput& output, CutResul
   }
   const bool proved = result.lower_bound == result.value;
   if ((output.stop == "proof") != proved) {
-    result.message = proved ? "the bound is a proof, but the solver says it stopped at: " + output.stop
-                            : "the solver claims a proof, but the bound leaves a gap";
+    result.message = proved
+                         ? "the bound is a proof, but the solver says it stopped at: " + output.stop
+                         : "the solver claims a proof, but the bound leaves a gap";
     return;
   }
   result.smallest_source_side = output.labels;
@@ -163,7 +164,8 @@ std::int64_t dual_bound(const CutProblem& problem, const std::vector<DualFlow>& 
   }
   DualFlow bound = to_dual_units(problem.constant);
   for (std::size_t i = 0; i < out.size(); ++i) {
-    bound += std::min(to_dual_units(problem.to_source[i]), to_dual_units(problem.to_sink[i]) + out[i]);
+    bound +=
+        std::min(to_dual_units(problem.to_source[i]), to_dual_units(problem.to_sink[i]) + out[i]);
   }
   // Costs are integers, so the bound may be rounded up. Division rounds towards zero.
   const DualFlow unit = to_dual_units(1);

@@ -10,9 +10,9 @@
 // A relaxation delivers a labelling and a dual flow instead: one value per edge within its
 // capacities, that need not balance. By weak duality no labelling costs less than
 //     constant + sum over nodes i of min(to_source[i], to_sink[i] + net flow out of i),
-// which is evaluated here in 128-bit integers from flows in multiples of 2^-24 and rounded up. Where
-// that bound meets the cost of the labelling, the labelling is proved to be a minimum cut, one of
-// possibly many; where it does not, both are what is known (status `gap`).
+// which is evaluated here in 128-bit integers from flows in multiples of 2^-24 and rounded up.
+// Where that bound meets the cost of the labelling, the labelling is proved to be a minimum cut,
+// one of possibly many; where it does not, both are what is known (status `gap`).
 #pragma once
 
 #include <cstdint>
@@ -64,7 +64,7 @@ struct SolveOptions {
 
 struct CutResult {
   CutStatus status = CutStatus::invalid;
-  std::string message;                  // why the status is `invalid`; empty otherwise
+  std::string message;  // why the status is `invalid`; empty otherwise
   // Whether edge_flow is a maximum flow and both labellings are the canonical ones. False for a
   // relaxation without crossover: edge_flow is empty and both labellings are the one that it
   // rounded to, which is a minimum cut where the status is `optimal`.
@@ -135,9 +135,8 @@ class CutSolver {
   [[nodiscard]] virtual const SolverInfo& info() const = 0;
 
   // Validates the problem, solves and times it, and recomputes what the solver claims.
-  // Errors: InputError as CutProblem::validate; UsageError as RelaxationOptions::validate; LimitError
-  // where the sum of capacities exceeds what
-  // this solver can represent; Cancelled.
+  // Errors: InputError as CutProblem::validate; UsageError as RelaxationOptions::validate;
+  // LimitError where the sum of capacities exceeds what this solver can represent; Cancelled.
   [[nodiscard]] CutResult solve(const CutProblem& problem, const SolveOptions& options = {});
 
  private:

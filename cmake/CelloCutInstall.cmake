@@ -56,6 +56,12 @@ endif()
 get_property(_cellocut_variant_packages GLOBAL PROPERTY CELLOCUT_VARIANT_PACKAGES)
 list(APPEND CELLOCUT_DEPENDENCIES ${_cellocut_variant_packages})
 list(REMOVE_DUPLICATES CELLOCUT_DEPENDENCIES)
+# The package file finds TBB by itself, before all others.
+set(CELLOCUT_NEEDS_TBB OFF)
+if(NOT CELLOCUT_SOLVERS_ONLY OR "TBB" IN_LIST CELLOCUT_DEPENDENCIES)
+  set(CELLOCUT_NEEDS_TBB ON)
+endif()
+list(REMOVE_ITEM CELLOCUT_DEPENDENCIES TBB)
 
 set(_cellocut_package ${CMAKE_INSTALL_LIBDIR}/cmake/CelloCut)
 string(REPLACE ";" " " CELLOCUT_COMPONENTS_TEXT "${CELLOCUT_COMPONENTS}")

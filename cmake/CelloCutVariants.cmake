@@ -1,22 +1,33 @@
 # Adding a variant is one file and one line:
-#   cellocut_add_solver(foo SOURCE foo.cpp [PACKAGE Foo LINK Foo::foo])          in solvers/
+#   cellocut_add_solver(foo SOURCE foo.cpp [PACKAGE Foo... LINK Foo::foo...])    in solvers/
 #   cellocut_add_tetrahedralizer(foo SOURCE foo.cpp [PACKAGE Foo LINK Foo::foo]) in backends/
 # The file defines `std::unique_ptr<...> make_foo()` in namespace cellocut::solvers or
-# cellocut::backends. Where PACKAGE is not found, or IF names a switch that is off, the variant is listed
+# cellocut::backends. Where a PACKAGE or the PROGRAM that it runs is not found, or IF
+# names a switch that is off, the variant is listed
 # as "not built" with that reason. The tables are generated source: a static object that registers itself
 # would be dropped by the linker when it sits in a static library.
 
 function(_cellocut_add_variant kind name)
-  cmake_parse_arguments(ARG "" "PACKAGE;IF" "SOURCE;LINK" ${ARGN})
+  cmake_parse_arguments(ARG "" "IF;PROGRAM" "SOURCE;LINK;PACKAGE" ${ARGN})
   set(reason "")
   if(ARG_IF AND NOT ${ARG_IF})
     set(reason "${ARG_IF} is OFF")
-  elseif(ARG_PACKAGE)
-    find_package(${ARG_PACKAGE} QUIET)
-    if(NOT ${ARG_PACKAGE}_FOUND)
-      set(reason "${ARG_PACKAGE} missing")
+  elseif(ARG_PROGRAM)
+    find_program(CELLOCUT_${ARG_PROGRAM}_PROGRAM ${ARG_PROGRAM})
+    if(NOT CELLOCUT_${ARG_PROGRAM}_PROGRAM)
+      set(reason "program ${ARG_PROGRAM} missing")
     endif()
   endif()
+  foreach(package IN LISTS ARG_PACKAGE)
+    if(package STREQUAL "TBB")  # the module that OpenVDB ships is broken
+      find_package(TBB QUIET CONFIG)
+    else()
+      find_package(${package} QUIET)
+    endif()
+    if(NOT reason AND NOT ${package}_FOUND)
+      set(reason "${package} missing")
+    endif()
+  endforeach()
   if(reason)
     message(STATUS "${kind} ${name}: not built: ${reason}")
   else()

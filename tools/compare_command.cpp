@@ -16,6 +16,7 @@
 #include "tools/exit_code.h"
 #include "tools/pipeline_arguments.h"
 #include "tools/problem_io.h"
+#include "tools/relaxation_arguments.h"
 #include "tools/session.h"
 #ifdef CELLOCUT_WITH_VIZ
 #include "tools/labelled_cells.h"
@@ -34,6 +35,7 @@ struct CompareArguments {
   std::string backends = "all";
   std::string solvers = "all";
   bool write_problems = false;
+  bool no_crossover = false;
   solvers::ComparisonOptions comparison{.solvers = {}, .repeats = 5};
   PipelineArguments pipeline;
 };
@@ -54,6 +56,9 @@ void add_arguments(CLI::App& app, CompareArguments& a) {
   app.add_option("--time-limit", a.comparison.seconds_limit,
                  "Seconds after which a solve is given up; 0: never")
       ->capture_default_str();
+  add_relaxation_options(app, a.comparison.relaxation);
+  app.add_flag("--no-crossover", a.no_crossover,
+               "lp: leave it at a labelling and a bound, with no flow and no certificate");
   app.add_flag("--write-problems", a.write_problems, "Each mesh's problem too, as .max and .bbk");
   a.pipeline.add_to(app);
   a.common.add_to(app);
@@ -148,7 +153,7 @@ class Comparison {
   // Every flow against the complex itself; the labels of the last stay in the result.
   void certify(ComparedInstance& instance, RemeshResult& result) {
     for (const solvers::SolverRun& run : instance.runs) {
-      if (!run.refused.empty() || run.result.status != CutStatus::optimal) continue;
+      if (!run.refused.empty() || !run.result.canonical) continue;
       adopt_cut(result, a_.pipeline.options, run.result);
       if (!result.certificate.valid && instance.defect.empty()) {
         instance.defect = "solver '" + run.info.name + "': the certificate failed";
@@ -178,13 +183,17 @@ class Comparison {
     viz::LabelledCells cells = labelled_cells(result, a_.pipeline.options, "");
     std::vector<std::uint8_t> disagree(result.complex.cells.size(), 0);
     for (const solvers::SolverRun& run : instance.runs) {
-      if (!run.refused.empty() || run.result.status != CutStatus::optimal) continue;
+      if (!run.refused.empty() || run.result.status == CutStatus::invalid) continue;
       const CutLabels& side = a_.pipeline.options.cut == CutChoice::largest
                                   ? run.result.largest_source_side
                                   : run.result.smallest_source_side;
       CellLabels labels = expand_labels(result.graph, side);
-      for (std::size_t c = 0; c < labels.size(); ++c) {
+      // A labelling that leaves a gap, or one of many minimum cuts, is no disagreement.
+      for (std::size_t c = 0; c < labels.size() && run.result.canonical; ++c) {
         if (labels[c] != result.label[c]) disagree[c] = 1;
+      }
+      if (!run.result.relaxed.empty() && cells.find("lp_value") == nullptr) {
+        cells.arrays.push_back({"lp_value", expand_relaxed(result.graph, run.result.relaxed)});
       }
       cells.arrays.push_back({"label_" + run.info.name, std::move(labels)});
     }
@@ -205,6 +214,8 @@ class Comparison {
 int run_compare(CompareArguments& a) {
   a.pipeline.complete();
   a.pipeline.options.validate();
+  a.comparison.relaxation.crossover = !a.no_crossover;
+  a.comparison.relaxation.validate();
   a.comparison.solvers =
       choose(solvers::registered(), "solver", a.solvers,
              [](const Variant<CutSolver>& variant) { return !variant.make()->info().outside; });

@@ -34,6 +34,11 @@ std::string status_of(const SolverRun& run) {
   return run.refused.empty() ? to_string(run.result.status) : "refused";
 }
 
+// Of a relaxation also why it stopped.
+std::string status_and_stop(const SolverRun& run) {
+  return status_of(run) + (run.result.stop.empty() ? "" : " (" + run.result.stop + ")");
+}
+
 // In quotes, as a path may hold a comma.
 std::string quoted(const std::string& text) {
   std::string result = "\"";
@@ -86,6 +91,9 @@ Json run_json(const SolverRun& run) {
   }
   row["value"] = run.result.value;
   row["lower_bound"] = run.result.lower_bound;
+  row["gap"] = run.result.value - run.result.lower_bound;
+  row["canonical"] = run.result.canonical;
+  row["stop"] = run.result.stop;
   row["build_seconds"] = times_json(run.build_seconds);
   row["solve_seconds"] = times_json(run.solve_seconds);
   row["verify_seconds"] = times_json(run.verify_seconds);
@@ -183,7 +191,7 @@ std::string comparison_table(const std::vector<ComparedInstance>& instances,
       text += fmt::format("  {:<20} {:>20} {:>9.4f} {:>9.4f} {:>9.4f} {:>9.4f} {:>8.2f}  {}\n",
                           run.info.name, run.result.value, median(run.build_seconds),
                           solve_time(run), smallest(run.solve_seconds), largest(run.solve_seconds),
-                          solve_time(run) / fastest, status_of(run));
+                          solve_time(run) / fastest, status_and_stop(run));
     }
     text += instance.defect.empty() ? "" : "  FAILED: " + instance.defect + "\n";
   }

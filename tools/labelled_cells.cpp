@@ -31,6 +31,19 @@ std::vector<std::int32_t> label_components(const TetComplex& complex, const Cell
 
 }  // namespace
 
+std::vector<float> expand_relaxed(const CellGraph& graph, const std::vector<float>& relaxed) {
+  std::vector<float> values(graph.decided.size());
+  for (std::size_t c = 0; c < values.size(); ++c) {
+    const std::int32_t node = graph.node_of_cell[c];
+    if (node >= 0) {
+      values[c] = 1.0F - relaxed[static_cast<std::size_t>(node)];
+    } else {
+      values[c] = graph.decided[c] == kInterior ? 0.0F : 1.0F;
+    }
+  }
+  return values;
+}
+
 viz::LabelledCells labelled_cells(const RemeshResult& result, const RemeshOptions& options,
                                   const std::string& solver) {
   const std::size_t n = result.complex.cells.size();
@@ -49,6 +62,9 @@ viz::LabelledCells labelled_cells(const RemeshResult& result, const RemeshOption
     }
     cells.arrays.push_back({"ambiguous", ambiguous});
     cells.arrays.push_back({"component", label_components(result.complex, result.label)});
+  }
+  if (!result.cut.relaxed.empty()) {
+    cells.arrays.push_back({"lp_value", expand_relaxed(result.graph, result.cut.relaxed)});
   }
   std::vector<float> phi(n);
   std::vector<double> volume(n);
@@ -77,6 +93,10 @@ viz::LabelledCells labelled_cells(const RemeshResult& result, const RemeshOption
       {"cut_lower_bound", result.cut.lower_bound},
       {"energy", static_cast<double>(result.cut.value) * energy_unit},
   };
+  if (!result.cut.relaxed.empty()) {
+    cells.fields.push_back(
+        {"legend_lp_value", std::string("0 interior to 1 exterior, before rounding")});
+  }
   return cells;
 }
 

@@ -13,6 +13,7 @@
 #include "tools/exit_code.h"
 #include "tools/pipeline_arguments.h"
 #include "tools/problem_io.h"
+#include "tools/relaxation_arguments.h"
 #include "tools/report_json.h"
 #include "tools/session.h"
 #ifdef CELLOCUT_WITH_VIZ
@@ -64,6 +65,7 @@ void add_arguments(CLI::App& app, RemeshArguments& a) {
          "sdf: signed distance of the interface, marching cubes; cells: the interface itself")
       ->check(CLI::IsMember({"sdf", "cells"}))
       ->capture_default_str();
+  add_relaxation_options(app, a.pipeline.options.relaxation);
   app.add_option("--min-component", a.pipeline.options.min_component,
                  "Drop components below this share of the total volume, 0 to 1")
       ->capture_default_str();
@@ -89,6 +91,7 @@ void complete_options(RemeshArguments& a) {
   }
   a.options().output_format = *format;
   a.options().validate();
+  a.options().relaxation.validate();
   if (!a.problem.empty() && !problem_format_of_path(a.problem)) {
     throw UsageError(a.problem + ": the cut problem is written as .max or .bbk");
   }

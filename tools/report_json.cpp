@@ -51,6 +51,7 @@ Json cut_json(const RemeshResult& result, const RemeshOptions& options, const Ru
   return {{"backend", facts.backend},
           {"solver", facts.solver},
           {"status", to_string(result.cut.status)},
+          {"stop", result.cut.stop},
           {"message", result.cut.message},
           {"value", result.cut.value},
           {"constant", result.graph.problem.constant},

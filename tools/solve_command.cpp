@@ -2,6 +2,7 @@
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -13,6 +14,7 @@
 #include "tools/commands.h"
 #include "tools/exit_code.h"
 #include "tools/problem_io.h"
+#include "tools/relaxation_arguments.h"
 #include "tools/session.h"
 
 namespace cellocut::tools {
@@ -30,6 +32,8 @@ struct SolveArguments {
   std::string check;
   std::string problem;
   bool statistics = false;
+  bool no_crossover = false;
+  RelaxationOptions relaxation{};
 };
 
 void add_arguments(CLI::App& app, SolveArguments& a) {
@@ -44,6 +48,9 @@ void add_arguments(CLI::App& app, SolveArguments& a) {
   app.add_option("--problem", a.problem, "The problem again, as .max or .bbk");
   app.add_flag("--statistics", a.statistics,
                "Degrees, capacities, terminals, components and a bound of the diameter");
+  add_relaxation_options(app, a.relaxation);
+  app.add_flag("--no-crossover", a.no_crossover,
+               "lp: leave it at a labelling and a bound, with no flow and no canonical cuts");
   a.common.add_to(app);
 }
 
@@ -61,6 +68,8 @@ Json result_json(const SolveArguments& a, const CutProblem& problem, const CutRe
           {"cut",
            {{"solver", a.solver},
             {"status", to_string(cut.status)},
+            {"canonical", cut.canonical},
+            {"stop", cut.stop},
             {"message", cut.message},
             {"value", cut.value},
             {"constant", problem.constant},
@@ -87,6 +96,11 @@ std::string judge_solution(const std::string& path, const DimacsProblem& problem
   }
   const std::string defect = check_solution(problem, solution);
   if (!defect.empty()) return path + ": not a flow of this problem: " + defect;
+  if (cut.status == CutStatus::gap) {
+    if (solution.value >= cut.lower_bound && solution.value <= cut.value) return {};
+    return fmt::format("{}: a flow of value {}, but the minimum cut lies between {} and {}", path,
+                       solution.value, cut.lower_bound, cut.value);
+  }
   if (solution.value != cut.value) {
     return fmt::format("{}: a flow of value {}, but the minimum cut is {}", path, solution.value,
                        cut.value);
@@ -108,6 +122,12 @@ int run_solve(const SolveArguments& a) {
   }
   require_writable({a.solution, a.problem, a.common.json});
   const std::unique_ptr<CutSolver> solver = solvers::make(a.solver);
+  RelaxationOptions relaxation = a.relaxation;
+  relaxation.crossover = !a.no_crossover;
+  relaxation.validate();
+  if (a.no_crossover && !solver->info().exact && !a.solution.empty()) {
+    throw UsageError("--sol: without a crossover there is no flow to write");
+  }
   const ThreadLimit limit(a.common.threads);
   TerminalObserver observer(a.common);
 
@@ -116,17 +136,18 @@ int run_solve(const SolveArguments& a) {
   const DimacsProblem problem = read_problem(a.input, *format);
   const double read_seconds = stopwatch.seconds();
   observer.stage("minimum cut");
-  const CutResult cut = solver->solve(problem.problem, SolveOptions{.observer = &observer});
+  const CutResult cut =
+      solver->solve(problem.problem, SolveOptions{.observer = &observer, .relaxation = relaxation});
   observer.stage("write");
   std::string defect;
-  if (cut.status != CutStatus::optimal) {
+  if (cut.status == CutStatus::invalid) {
     defect = a.input + ": solver '" + a.solver + "': " + cut.message;
   } else if (!a.check.empty()) {
     defect = judge_solution(a.check, problem, cut);
   }
   Json report = result_json(a, problem.problem, cut, read_seconds);
   if (a.statistics) report["statistics"] = statistics_json(problem_statistics(problem.problem));
-  if (cut.status == CutStatus::optimal && !a.solution.empty()) {
+  if (cut.canonical && !a.solution.empty()) {
     write_text(a.solution, encode_solution(problem, cut));
   }
   if (output_format) write_problem(problem.problem, a.problem, *output_format);
@@ -141,8 +162,17 @@ int run_solve(const SolveArguments& a) {
     fmt::print("nodes {}, edges {}\nminimum cut {} ({}), lower bound {}\n",
                problem.problem.node_count(), problem.problem.edges.size(), cut.value,
                to_string(cut.status), cut.lower_bound);
-    fmt::print("source side: {} nodes in the smallest minimum cut, {} in the largest\n",
-               count_ones(cut.smallest_source_side), count_ones(cut.largest_source_side));
+    if (cut.canonical) {
+      fmt::print("source side: {} nodes in the smallest minimum cut, {} in the largest\n",
+                 count_ones(cut.smallest_source_side), count_ones(cut.largest_source_side));
+    } else {
+      fmt::print("source side: {} nodes\n", count_ones(cut.largest_source_side));
+    }
+    if (!cut.stop.empty()) {
+      fmt::print("relaxation: stopped at: {}, {} fractional values\n", cut.stop,
+                 std::count_if(cut.relaxed.begin(), cut.relaxed.end(),
+                               [](float x) { return x > 0 && x < 1; }));
+    }
     fmt::print("read {:.3f} s, build {:.3f} s, solve {:.3f} s, verify {:.3f} s\n", read_seconds,
                cut.build_seconds, cut.solve_seconds, cut.verify_seconds);
     if (a.statistics) fmt::print("{}\n", report["statistics"].dump(2));

@@ -144,7 +144,10 @@ void minimise_cut(RemeshResult& result, const RemeshOptions& options, CutSolver&
                   Observer& observer) {
   StageClock stage(result.stages, observer);
   CutResult cut = stage("minimum cut", [&] {
-    return solver.solve(result.graph.problem, SolveOptions{.observer = &observer});
+    RelaxationOptions relaxation = options.relaxation;
+    relaxation.crossover = true;
+    return solver.solve(result.graph.problem,
+                        SolveOptions{.observer = &observer, .relaxation = relaxation});
   });
   if (cut.status == CutStatus::invalid) {
     result.cut = std::move(cut);

@@ -46,6 +46,9 @@ struct RemeshOptions {
   bool unary = true;       // false: L* only sets weights, nothing is anchored interior (ablation)
   // Surface components of less than this share of the total volume are dropped; 0 to 1.
   double min_component = 0;
+  // When a relaxation stops; it is always completed to a flow, without which there is no
+  // certificate.
+  RelaxationOptions relaxation{};
   // The format that the surface will be written in: it is judged as a reader will see it.
   MeshFormat output_format = MeshFormat::obj;
 
@@ -103,7 +106,7 @@ RemeshResult pose_cut(const TriangleSoup& input, const RemeshOptions& options,
 
 // Labels the cells of a result of pose_cut() by a cut of its problem, lifts the flow to the facets
 // and checks the certificate. May be called again, with another solver's cut.
-// Precondition: cut.status is not `invalid`.
+// Precondition: cut.canonical.
 void adopt_cut(RemeshResult& result, const RemeshOptions& options, CutResult cut);
 
 // Solves the problem of a result of pose_cut() and adopts the cut. Errors: as CutSolver::solve();

@@ -53,6 +53,40 @@ class Solve(ProgramCase):
                 run = self.run_program("solve", "small.max", "--check", name, "--quiet")
                 self.assert_one_line(run, 5, what)
 
+    def test_the_relaxation_with_and_without_a_flow(self):
+        self.put("small.max", SMALL)
+        self.succeed("solve", "small.max", "--solver", "lp", "--sol", "out.sol", "--json", "r.json", "--quiet")
+        cut = self.report()["cut"]
+        self.assertEqual((cut["value"], cut["status"], cut["canonical"]), (SMALL_VALUE, "optimal", True))
+        self.succeed("solve", "small.max", "--check", "out.sol", "--quiet")
+        self.succeed("solve", "small.max", "--solver", "lp", "--no-crossover", "--json", "r.json", "--quiet")
+        cut = self.report()["cut"]
+        self.assertEqual((cut["value"], cut["status"], cut["stop"]), (SMALL_VALUE, "optimal", "proof"))
+        self.assertFalse(cut["canonical"])
+        run = self.succeed("solve", "small.max", "--solver", "lp", "--no-crossover")
+        self.assertIn(b"stopped at: proof", run.stdout)
+
+    def test_a_relaxation_that_stops_early_tells_its_gap(self):
+        self.succeed("remesh", "holed.obj", "-o", "out.obj", "--problem", "cut.max", "--quiet", *COARSE)
+        self.succeed("solve", "cut.max", "--json", "r.json", "--quiet")
+        exact = self.report()["cut"]["value"]
+        self.succeed("solve", "cut.max", "--solver", "lp", "--no-crossover", "--lp-iterations", "1",
+                     "--json", "r.json", "--quiet")
+        cut = self.report()["cut"]
+        self.assertLessEqual(cut["lower_bound"], exact)
+        self.assertGreaterEqual(cut["value"], exact)
+        if cut["gap"] > 0:
+            self.assertEqual((cut["status"], cut["stop"]), ("gap", "iteration limit"))
+
+    def test_wrong_limits_of_the_relaxation(self):
+        self.put("small.max", SMALL)
+        for option, value, what in (("--lp-gap", "-1", "gap"), ("--lp-gap", "nan", "gap"),
+                                    ("--lp-time", "-1", "time limit"), ("--lp-iterations", "0", "iteration")):
+            with self.subTest(option):
+                self.fail_with(2, what, "solve", "small.max", "--solver", "lp", option, value, outputs=())
+        self.fail_with(2, "--sol: without a crossover", "solve", "small.max", "--solver", "lp",
+                       "--no-crossover", "--sol", "out.sol", outputs=("out.sol",))
+
     def test_statistics(self):
         self.put("small.max", SMALL)
         self.succeed("solve", "small.max", "--statistics", "--json", "r.json", "--quiet")
@@ -142,6 +176,27 @@ class Compare(ProgramCase):
         self.succeed("solve", "cut.max", "--problem", "cut.bbk", "--quiet")
         self.succeed("solve", "cut.bbk", "--json", "s.json", "--quiet")
         self.assertEqual(json.loads(self.get("s.json"))["cut"]["value"], cut["value"])
+
+    def test_a_relaxation_beside_an_exact_solver(self):
+        self.put("small.max", SMALL)
+        self.succeed("compare", "small.max", "holed.obj", "-o", "out", "--solvers", "bk,lp", "--no-crossover",
+                     "--backends", "cgal", "--repeat", "1", "--quiet", *COARSE)
+        for instance in json.loads(self.get("out/compare.json"))["instances"]:
+            self.assertEqual(instance["defect"], "")
+            exact, relaxed = instance["runs"]
+            self.assertTrue(exact["canonical"])
+            self.assertFalse(relaxed["canonical"])
+            self.assertLessEqual(relaxed["lower_bound"], exact["value"])
+            self.assertGreaterEqual(relaxed["value"], exact["value"])
+
+    def test_a_remesh_by_the_relaxation_has_its_certificate(self):
+        self.succeed("remesh", "holed.obj", "-o", "first.obj", "--quiet", *COARSE)
+        self.succeed("remesh", "holed.obj", "-o", "second.obj", "--solver", "lp", "--json", "r.json", "--quiet",
+                     *COARSE)
+        report = json.loads(self.get("r.json"))
+        self.assertTrue(report["certificate"]["valid"])
+        self.assertEqual(report["cut"]["status"], "optimal")
+        self.assertEqual(self.get("first.obj"), self.get("second.obj"))
 
     def test_a_chosen_few(self):
         self.put("small.max", SMALL)

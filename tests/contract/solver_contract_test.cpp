@@ -44,6 +44,7 @@ void expect_cut(const CutResult& result, const ExpectedCut& expected) {
   EXPECT_EQ(result.lower_bound, expected.value);
   EXPECT_EQ(result.smallest_source_side, expected.smallest);
   EXPECT_EQ(result.largest_source_side, expected.largest);
+  EXPECT_TRUE(result.canonical);
 }
 
 // Independent of cut_solver.cpp: what makes edge_flow a feasible flow.
@@ -150,7 +151,7 @@ TEST_P(Solver, SaysWhatItIs) {
   EXPECT_NE(info.summary, "");
   EXPECT_NE(info.licence, "");
   EXPECT_NE(info.reference, "");
-  EXPECT_TRUE(info.exact);
+  EXPECT_EQ(info.exact, GetParam() != "lp");
   EXPECT_GT(info.capacity_limit, 0);
   EXPECT_LE(info.capacity_limit, kCapacityLimit);
 }
@@ -243,10 +244,11 @@ TEST(SolverTable, ListsEveryVariantOnceBuiltOrWithAReason) {
     EXPECT_TRUE(names.insert(variant.name).second) << variant.name;
     EXPECT_EQ(variant.make == nullptr, !variant.not_built.empty()) << variant.name;
   }
-  for (const char* name : {"bk", "push_relabel", "ibfs", "libmaxflow", "lemon_preflow"}) {
+  for (const char* name :
+       {"bk", "push_relabel", "ibfs", "lp", "libmaxflow", "lemon_preflow", "clp"}) {
     EXPECT_EQ(names.count(name), 1U) << name;
   }
-  EXPECT_THAT(built_solvers(), ::testing::IsSupersetOf({"bk", "push_relabel", "ibfs"}));
+  EXPECT_THAT(built_solvers(), ::testing::IsSupersetOf({"bk", "push_relabel", "ibfs", "lp"}));
 }
 
 TEST(SolverTable, RefusesUnknownNamesAndListsWhatIsBuilt) {

@@ -140,6 +140,15 @@ const char* to_string(CutStatus status) {
   return "unknown";
 }
 
+void RelaxationOptions::validate() const {
+  // Written so that a NaN fails.
+  if (!(relative_gap >= 0 && relative_gap < 1)) {
+    throw UsageError("relative gap: give a number from 0 to below 1");
+  }
+  if (!(seconds_limit >= 0)) throw UsageError("time limit: give seconds, 0 for none");
+  if (iteration_limit < 1) throw UsageError("iteration limit: give at least 1");
+}
+
 void SolveContext::built() { built_at_ = clock_.seconds(); }
 
 TerminalFlow terminal_flow(std::int64_t to_source, std::int64_t to_sink, std::int64_t out) {
@@ -211,6 +220,7 @@ CutResult CutSolver::solve(const CutProblem& problem, const SolveOptions& option
     }
   }
 
+  options.relaxation.validate();
   CutResult result;
   SolveContext context(options);
   Stopwatch stopwatch;

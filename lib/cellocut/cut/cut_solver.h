@@ -52,6 +52,9 @@ struct RelaxationOptions {
   double seconds_limit = 0;  // stops the iteration after so long; 0: never
   std::int64_t iteration_limit = 50000;
   bool crossover = true;  // complete the dual flow to a maximum flow, so that the result is exact
+
+  // Throws UsageError that names what is wrong.
+  void validate() const;
 };
 
 struct SolveOptions {
@@ -135,8 +138,8 @@ class CutSolver {
   [[nodiscard]] virtual const SolverInfo& info() const = 0;
 
   // Validates the problem, solves and times it, and recomputes what the solver claims.
-  // Errors: InputError as CutProblem::validate; LimitError where the sum of capacities exceeds what
-  // this solver can represent; Cancelled.
+  // Errors: InputError as CutProblem::validate; UsageError as RelaxationOptions::validate;
+  // LimitError where the sum of capacities exceeds what this solver can represent; Cancelled.
   [[nodiscard]] CutResult solve(const CutProblem& problem, const SolveOptions& options = {});
 
  private:

@@ -19,8 +19,8 @@ function(_cellocut_add_variant kind name)
     endif()
   endif()
   foreach(package IN LISTS ARG_PACKAGE)
-    if(package STREQUAL "TBB")  # the module that OpenVDB ships is broken
-      find_package(TBB QUIET CONFIG)
+    if(package MATCHES "^(TBB|Eigen3)$")  # the modules that OpenVDB and CGAL ship make no targets
+      find_package(${package} QUIET CONFIG)
     else()
       find_package(${package} QUIET)
     endif()

@@ -19,10 +19,14 @@ class Return {
  public:
   Return(const PackedGraph& graph, std::vector<std::int64_t>& flow, const SolveContext& context)
       : graph_(graph), flow_(flow), context_(context) {}
-  void run(std::vector<std::int64_t>& excess, std::int64_t sign);
+  void run(const std::vector<std::int64_t>& excess, std::int64_t sign);
 
  private:
-  void take_back(std::uint32_t start);
+  enum State : std::uint8_t { kNew, kOnPath, kDone };
+
+  void search(std::uint32_t start);
+  void cancel_cycle(std::uint32_t closing_node);
+  void move_up(std::uint32_t i);
   // Flow of arc a that goes into its tail, in the orientation of the run.
   [[nodiscard]] std::int64_t inflow(std::uint32_t a) const { return -sign_ * flow_[a]; }
   void reduce(std::uint32_t a, std::int64_t amount) {
@@ -35,75 +39,95 @@ class Return {
   const SolveContext& context_;
   std::int64_t sign_ = 1;
   std::int64_t steps_ = 0;
-  std::vector<std::int64_t> excess_;     // still to be taken back
-  std::vector<std::int64_t> drawn_;      // what a node has from the terminal and can give back
-  std::vector<std::uint32_t> current_;   // no arc of the row before it carries flow in
-  std::vector<std::uint32_t> position_;  // in the walk, from 1; 0 outside
-  std::vector<std::uint32_t> walk_;      // arcs, each from a node to where its flow comes from
+  std::vector<std::int64_t> excess_;    // still to be taken back
+  std::vector<std::uint32_t> current_;  // arcs of the row before it need not be looked at again
+  std::vector<std::uint8_t> state_;
+  std::vector<std::uint32_t> path_;   // of the search, each node gets flow from the next
+  std::vector<std::uint32_t> order_;  // every node behind all that its flow comes from
 };
 
-void Return::run(std::vector<std::int64_t>& excess, std::int64_t sign) {
+void Return::run(const std::vector<std::int64_t>& excess, std::int64_t sign) {
   const std::uint32_t count = graph_.node_count();
+  const auto drawn = [&](std::uint32_t i) {
+    return std::max<std::int64_t>(0, sign * graph_.terminal[i]);
+  };
   sign_ = sign;
-  std::vector<std::uint32_t> starts;
   excess_.assign(count, 0);
-  drawn_.assign(count, 0);
+  std::vector<std::uint32_t> starts;
   for (std::uint32_t i = 0; i < count; ++i) {
-    drawn_[i] = std::max<std::int64_t>(0, sign * graph_.terminal[i]);
-    std::int64_t left = std::max<std::int64_t>(0, sign * excess[i]);
-    const std::int64_t here = std::min(left, drawn_[i]);
-    drawn_[i] -= here;
-    left -= here;
-    excess_[i] = left;
-    if (left > 0) starts.push_back(i);
+    excess_[i] = std::max<std::int64_t>(0, sign * excess[i]);
+    if (excess_[i] > drawn(i)) starts.push_back(i);
   }
   if (starts.empty()) return;
   current_.assign(graph_.row.begin(), graph_.row.end() - 1);
-  position_.assign(count, 0);
+  state_.assign(count, kNew);
+  order_.clear();
   for (const std::uint32_t i : starts) {
-    while (excess_[i] > 0) take_back(i);
+    if (state_[i] == kNew) search(i);
+  }
+  for (std::size_t k = order_.size(); k-- > 0;) {
+    const std::uint32_t i = order_[k];
+    excess_[i] -= std::min(excess_[i], drawn(i));
+    if (excess_[i] > 0) move_up(i);
   }
 }
 
-// One walk from `start` to a node that can give back. The walk starts anew after each push: where
-// the flow branches the walks are short.
-void Return::take_back(std::uint32_t start) {
+// Depth first along arcs that carry flow in.
+void Return::search(std::uint32_t start) {
   constexpr std::int64_t kPollInterval = 4096;
-  walk_.clear();
-  std::uint32_t i = start;
-  position_[i] = 1;
-  while (drawn_[i] == 0) {
+  path_.assign(1, start);
+  state_[start] = kOnPath;
+  while (!path_.empty()) {
     if (++steps_ % kPollInterval == 0) context_.check();
+    const std::uint32_t i = path_.back();
     std::uint32_t& a = current_[i];
-    while (inflow(a) <= 0) ++a;
-    const std::uint32_t above = graph_.arcs[a].head;
-    walk_.push_back(a);
-    if (position_[above] == 0) {
-      i = above;
-      position_[i] = static_cast<std::uint32_t>(walk_.size()) + 1;
+    const std::uint32_t end = graph_.row[i + 1];
+    while (a < end && (inflow(a) <= 0 || state_[graph_.arcs[a].head] == kDone)) ++a;
+    if (a == end) {
+      state_[i] = kDone;
+      order_.push_back(i);
+      path_.pop_back();
       continue;
     }
-    // A cycle, from the walk's arc number position - 1 to the last.
-    const std::size_t begin = position_[above] - 1;
-    std::int64_t amount = inflow(walk_[begin]);
-    for (std::size_t k = begin; k < walk_.size(); ++k) amount = std::min(amount, inflow(walk_[k]));
-    for (std::size_t k = begin; k < walk_.size(); ++k) {
-      position_[graph_.arcs[walk_[k]].head] = 0;
-      reduce(walk_[k], amount);
+    const std::uint32_t above = graph_.arcs[a].head;
+    if (state_[above] == kOnPath) {
+      cancel_cycle(above);
+    } else {
+      state_[above] = kOnPath;
+      path_.push_back(above);
     }
-    walk_.resize(begin);
-    i = above;
-    position_[i] = static_cast<std::uint32_t>(begin) + 1;
   }
-  std::int64_t amount = std::min(excess_[start], drawn_[i]);
-  for (const std::uint32_t a : walk_) amount = std::min(amount, inflow(a));
-  for (const std::uint32_t a : walk_) {
-    position_[graph_.arcs[a].head] = 0;
+}
+
+// The end of the path gets flow from `closing_node`, which is on the path. The path is cut behind
+// the first node that gets no more from the next.
+void Return::cancel_cycle(std::uint32_t closing_node) {
+  std::size_t begin = path_.size();
+  std::int64_t amount = kCapacityLimit;
+  do {
+    --begin;
+    amount = std::min(amount, inflow(current_[path_[begin]]));
+  } while (path_[begin] != closing_node);
+  std::size_t keep = path_.size();
+  for (std::size_t k = path_.size(); k-- > begin;) {
+    const std::uint32_t a = current_[path_[k]];
     reduce(a, amount);
+    if (inflow(a) == 0) keep = k + 1;
   }
-  position_[start] = 0;
-  excess_[start] -= amount;
-  drawn_[i] -= amount;
+  for (std::size_t k = keep; k < path_.size(); ++k) state_[path_[k]] = kNew;
+  path_.resize(keep);
+}
+
+// What flows in and what the node drew itself is at least what flows out and its excess.
+void Return::move_up(std::uint32_t i) {
+  std::int64_t& left = excess_[i];
+  for (std::uint32_t a = graph_.row[i]; left > 0 && a < graph_.row[i + 1]; ++a) {
+    const std::int64_t amount = std::min(left, inflow(a));
+    if (amount <= 0) continue;
+    reduce(a, amount);
+    left -= amount;
+    excess_[graph_.arcs[a].head] += amount;
+  }
 }
 
 }  // namespace
@@ -142,7 +166,7 @@ std::int64_t PackedGraph::bytes() const {
 }
 
 std::vector<std::int64_t> returned_flow(const PackedGraph& graph, const CutProblem& problem,
-                                        std::vector<std::int64_t> excess,
+                                        const std::vector<std::int64_t>& excess,
                                         const SolveContext& context) {
   std::vector<std::int64_t> flow(graph.arcs.size());
   for (std::size_t e = 0; e < problem.edges.size(); ++e) {

@@ -14,8 +14,9 @@
 // at a node as its excess. `returned_flow` makes a flow of a maximum pseudoflow, in which no
 // residual path leads from an excess to a deficit: every excess is taken back along arcs that carry
 // flow into the node, to a node that drew it from the source, and every deficit, by the same code
-// with all signs turned, to one that gave it to the sink. A walk that closes a cycle cancels the
-// flow on it. Flow only decreases, so a node never looks at an arc of its row twice.
+// with all signs turned, to one that gave it to the sink. A depth-first search along those arcs
+// cancels the flow on every cycle that it closes; what remains is acyclic, and one sweep in its
+// order moves everything (Cherkassky and Goldberg 1997). Linear but for the cycles.
 #pragma once
 
 #include <cstdint>
@@ -63,9 +64,9 @@ struct PackedGraph {
 
 // The maximum flow that a maximum pseudoflow contains, one net value per edge. `excess` is that of
 // the pseudoflow in which every terminal arc is saturated. The problem is the one that the graph
-// was made from. O(nodes * edges), in practice near the total length of the walks.
+// was made from. O(nodes * edges), linear where the flow has no cycles.
 std::vector<std::int64_t> returned_flow(const PackedGraph& graph, const CutProblem& problem,
-                                        std::vector<std::int64_t> excess,
+                                        const std::vector<std::int64_t>& excess,
                                         const SolveContext& context);
 
 }  // namespace cellocut::solvers

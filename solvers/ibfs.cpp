@@ -8,38 +8,40 @@
 //                 neighbours;
 //   augmentation  across an arc from S to T, as much is pushed as the path from the root in S and
 //                 the arc let through. In T it stays where it arrives, as excess;
-//   settling      at the end of the level, what has arrived moves down T level by level, the
-//                 deepest first, so that every tree arc carries the sum of what comes down it once.
-//                 Nodes whose tree arc is saturated, in S or T, and roots that have no excess (no
-//                 deficit) left become orphans;
+//   settling      at the end of the level, what has arrived moves towards the roots of T level by
+//                 level, the deepest first, so that every tree arc carries all that comes along it
+//                 at once. Nodes whose tree arc is saturated, in S or T, and roots that have no
+//                 excess (no deficit) left become orphans; what reaches an orphan of T waits there;
 //   adoption      an orphan looks for another parent on the level of the old one; where there is
 //                 none it is lost, and its children become orphans. When no orphan is left, a
 //                 breadth-first search from the tree into the lost nodes gives each its new depth.
 //                 Those that would be deeper than the limit become free, or, with what has arrived
 //                 at them, roots of S at the deepest level of S. Adopted nodes with something left
-//                 pass it on, and so forth until nothing moves.
+//                 pass it on, and so forth until nothing moves. S adopts after each level, T when
+//                 enough work has gone by: labels stay lower bounds of the distances meanwhile.
 // When a forest has no node on its deepest level, all its nodes have been scanned: no residual arc
-// leaves it, and the pseudoflow is maximal. Excess that is left goes back to the source, see
-// packed_graph.h; that is part of the solve time.
+// leaves it, and once T has no orphans either the pseudoflow is maximal. Excess that is left goes
+// back to the source, see packed_graph.h; that is part of the solve time.
 //
-// Invariants, between settlings. (1) A node is one deeper than its parent, and the arc between them
-// has residual capacity in the direction of the flow. (2) A residual arc of S leads at most one
-// level down; T likewise towards its roots. (3) Residual arcs out of S (into T) begin (end) at
-// nodes that have yet to be scanned: those at the limit, and in the forest that grows those still
-// in line. That is why a node without a parent in T may become a root of S at the limit: no node
-// that has been scanned has a residual arc to it. (4) Depths of a node never decrease while it
-// stays in a forest. (5) Only roots of S have excess, only roots of T a deficit; other nodes of T
-// may have something to pass on.
+// Invariants, between settlings. (1) A node that is no orphan is one deeper than its parent, and
+// the arc between them has residual capacity in the direction of the flow. (2) A residual arc of S
+// leads at most one level down; T likewise towards its roots. (3) Residual arcs out of S (into T)
+// begin (end) at nodes that have yet to be scanned: those at the limit, and in the forest that
+// grows those still in line. That is why a node without a parent in T may become a root of S at the
+// limit: no node that has been scanned has a residual arc to it. (4) Depths of a node never
+// decrease while it stays in a forest. (5) Only roots of S have excess, only roots of T a deficit;
+// other nodes of T may have something to pass on.
 //
 // Choices of ours. The paper (2015) saturates the joining arc and leaves a deficit in S as well as
 // an excess in T. On cuts of tetrahedra, where half of all nodes are sources of little each, that
 // displaced most of the sources; drawing no more than S can give halves the time. Settling once a
-// level instead of after each augmentation halves it again. And the forest to grow is the one that
+// level instead of after each augmentation halves it again; adoption in T that waits for several
+// levels helps most where distances grow everywhere. And the forest to grow is the one that
 // has cost less work per unit of what its terminal had to give: roots with little supply run dry,
 // and take whole subtrees with them.
 //
 // Complexity. O(n^2 m), independent of capacities, is proved in the papers for one adoption after
-// each augmentation; for settling once a level no bound is claimed. Every settling scans the lost
+// each augmentation; for settling once a level no bound is claimed. Every adoption scans the lost
 // nodes four times.
 //
 // Layout. 32 bytes per node, and 16 per arc (packed_graph.h): scans and adoption read rows and the
@@ -70,6 +72,9 @@ namespace {
 constexpr std::uint32_t kRoot = 0xffff'fffdU;
 constexpr std::uint32_t kOrphan = 0xffff'fffeU;
 constexpr std::uint32_t kNone = 0xffff'ffffU;  // of a free node; also the end of a list
+
+// Orphans of T wait until one part in so many of all nodes has been worked on.
+constexpr std::int64_t kEagerness = 4;
 
 // What the loss of a node costs, in scans of a node.
 constexpr std::int64_t kLossWork = 4;
@@ -142,7 +147,8 @@ class Search {
   void draw(std::uint32_t i, std::int64_t amount);
   void receive(std::uint32_t i, std::int64_t amount);
   void pass_on();
-  void settle();
+  void settle(bool adopt);
+  [[nodiscard]] std::int64_t work() const { return trees_[kSource].work + trees_[kSink].work; }
   template <Side side>
   void set_depth(std::uint32_t i, std::int32_t depth);
   template <Side side>
@@ -167,6 +173,7 @@ class Search {
   std::vector<std::uint32_t> level_;    // nodes of the level that is being grown
   std::vector<std::uint32_t> again_;    // of these, to be scanned again
   std::vector<std::uint32_t> passing_;  // per depth in T, first of the list of nodes that pass on
+  std::int64_t adopted_at_ = 0;         // work() at the last adoption in T
   std::int32_t deepest_passing_ = 0;    // none is deeper
   std::vector<std::uint32_t> lost_;
   std::vector<std::uint32_t> found_;  // lost nodes that have a place on the level in hand,
@@ -420,10 +427,13 @@ void Search::adopt_all() {
   settle_lost<side>();
 }
 
-void Search::settle() {
-  while (deepest_passing_ > 0 || trees_[kSink].most_orphan > 0) {
-    pass_on();
+// Orphans of T, and what waits at them, are left alone unless `adopt`.
+void Search::settle(bool adopt) {
+  pass_on();
+  while (adopt && trees_[kSink].most_orphan > 0) {
     adopt_all<kSink>();
+    adopted_at_ = work();
+    pass_on();
   }
   adopt_all<kSource>();
 }
@@ -472,10 +482,10 @@ bool Search::grow_level() {
   tree.growing = tree.limit++;
   tree.orphaned.resize(std::size_t(tree.limit) + 1, kNone);
   if (side == kSink) passing_.resize(tree.orphaned.size(), kNone);
-  tree.least_orphan = tree.limit + 1;
+  if (tree.most_orphan == 0) tree.least_orphan = tree.limit + 1;
   for (std::size_t k = 0;; ++k) {
     if (k == level_.size()) {
-      settle();
+      settle(work() > adopted_at_ + static_cast<std::int64_t>(nodes_.size()) / kEagerness);
       level_.insert(level_.end(), again_.begin(), again_.end());
       again_.clear();
       if (k == level_.size()) break;
@@ -502,6 +512,10 @@ void Search::run() {
     };
     const bool source = cost(kSource) <= cost(kSink);
     more = source ? grow_level<kSource>() : grow_level<kSink>();
+    if (!more && trees_[kSink].most_orphan > 0) {
+      settle(true);
+      more = true;
+    }
   }
 }
 

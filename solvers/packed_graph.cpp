@@ -17,8 +17,8 @@ bool has_arcs(const CutEdge& edge) {
 // Takes excess back along the arcs it came by. With `sign` -1 the same for deficits.
 class Return {
  public:
-  Return(const PackedGraph& graph, std::vector<std::int64_t>& flow, const SolveContext& context)
-      : graph_(graph), flow_(flow), context_(context) {}
+  // Precondition: every arc holds its net flow in place of its residual capacity.
+  Return(PackedGraph& graph, const SolveContext& context) : graph_(graph), context_(context) {}
   void run(const std::vector<std::int64_t>& excess, std::int64_t sign);
 
  private:
@@ -28,14 +28,15 @@ class Return {
   void cancel_cycle(std::uint32_t closing_node);
   void move_up(std::uint32_t i);
   // Flow of arc a that goes into its tail, in the orientation of the run.
-  [[nodiscard]] std::int64_t inflow(std::uint32_t a) const { return -sign_ * flow_[a]; }
+  [[nodiscard]] std::int64_t inflow(std::uint32_t a) const {
+    return -sign_ * graph_.arcs[a].residual;
+  }
   void reduce(std::uint32_t a, std::int64_t amount) {
-    flow_[a] += sign_ * amount;
-    flow_[graph_.arcs[a].sister] -= sign_ * amount;
+    graph_.arcs[a].residual += sign_ * amount;
+    graph_.arcs[graph_.arcs[a].sister].residual -= sign_ * amount;
   }
 
-  const PackedGraph& graph_;
-  std::vector<std::int64_t>& flow_;  // per arc, that of its sister is the negative
+  PackedGraph& graph_;
   const SolveContext& context_;
   std::int64_t sign_ = 1;
   std::int64_t steps_ = 0;
@@ -165,22 +166,22 @@ std::int64_t PackedGraph::bytes() const {
                                    terminal.size() * sizeof(terminal[0]));
 }
 
-std::vector<std::int64_t> returned_flow(const PackedGraph& graph, const CutProblem& problem,
+std::vector<std::int64_t> returned_flow(PackedGraph& graph, const CutProblem& problem,
                                         const std::vector<std::int64_t>& excess,
                                         const SolveContext& context) {
-  std::vector<std::int64_t> flow(graph.arcs.size());
   for (std::size_t e = 0; e < problem.edges.size(); ++e) {
-    const std::uint32_t a = graph.arc_of_edge[e];
-    if (a == PackedGraph::kNoArc) continue;
-    flow[a] = problem.edges[e].capacity - graph.arcs[a].residual;
-    flow[graph.arcs[a].sister] = -flow[a];
+    if (graph.arc_of_edge[e] == PackedGraph::kNoArc) continue;
+    PackedArc& arc = graph.arcs[graph.arc_of_edge[e]];
+    arc.residual = problem.edges[e].capacity - arc.residual;
+    graph.arcs[arc.sister].residual = -arc.residual;
   }
-  Return step(graph, flow, context);
+  Return step(graph, context);
   step.run(excess, 1);
   step.run(excess, -1);
   std::vector<std::int64_t> edge_flow(problem.edges.size(), 0);
   for (std::size_t e = 0; e < edge_flow.size(); ++e) {
-    if (graph.arc_of_edge[e] != PackedGraph::kNoArc) edge_flow[e] = flow[graph.arc_of_edge[e]];
+    const std::uint32_t a = graph.arc_of_edge[e];
+    if (a != PackedGraph::kNoArc) edge_flow[e] = graph.arcs[a].residual;
   }
   return edge_flow;
 }

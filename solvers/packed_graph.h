@@ -64,8 +64,9 @@ struct PackedGraph {
 
 // The maximum flow that a maximum pseudoflow contains, one net value per edge. `excess` is that of
 // the pseudoflow in which every terminal arc is saturated. The problem is the one that the graph
-// was made from. O(nodes * edges), linear where the flow has no cycles.
-std::vector<std::int64_t> returned_flow(const PackedGraph& graph, const CutProblem& problem,
+// was made from; the flow takes the place of the residual capacities, and some 20 bytes per node
+// come on top. O(nodes * edges), linear where the flow has no cycles.
+std::vector<std::int64_t> returned_flow(PackedGraph& graph, const CutProblem& problem,
                                         const std::vector<std::int64_t>& excess,
                                         const SolveContext& context);
 

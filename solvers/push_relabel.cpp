@@ -249,7 +249,7 @@ class PushRelabel final : public CutSolver {
       mirror(graph);
       for (std::int64_t& amount : excess) amount = -amount;
     }
-    return {returned_flow(graph, problem, std::move(excess), context),
+    return {returned_flow(graph, problem, excess, context),
             {{"pushes", preflow.pushes},
              {"relabels", preflow.relabels},
              {"global_relabels", preflow.global_relabels},

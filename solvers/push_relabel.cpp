@@ -1,4 +1,4 @@
-// push_relabel: Goldberg-Tarjan preflows, highest label first, with global relabelling and gaps.
+// push_relabel: Goldberg-Tarjan preflows, first in first out in waves, with global relabelling.
 //
 // Definition. A preflow obeys the capacities, and no node sends on more than it receives; what a
 // node has too much is its excess. A labelling d is valid when d(i) <= d(j) + 1 for every residual
@@ -9,77 +9,69 @@
 // Terminals are implicit. Every node has one signed balance:
 //   balance > 0   excess,
 //   balance < 0   minus what the node can still absorb; such a node is a sink, with label 0.
-// Phase one starts with all source arcs saturated, balance = terminal (see residual_graph.h), and
+// Phase one starts with all source arcs saturated, balance = terminal (see packed_graph.h), and
 // moves as much excess as possible into the sinks; nodes from which no sink can be reached are set
 // aside. What is left is a maximum preflow. Phase two makes it a flow: excess goes back to where it
-// came from. Now a node absorbs what it drew from the source, so excess is first cancelled where it
-// stands, and the rest is moved by the same routine; in the residual graph every excess has a way
-// back to the source. Nodes that could still absorb for the real sink take no part, they cannot be
-// reached.
+// came from, in one sweep along the acyclic part of the flow (packed_graph.h). Both are timed.
 //
-// Which terminal is the source. The problem is mirrored where fewer nodes are joined to the sink
-// than to the source: work follows the number of nodes that start with excess. On cuts of
-// tetrahedra, where most nodes of a body border its shell, that is four times faster.
+// Which terminal is the source. The problem is mirrored where the sink's arcs carry less in all
+// than the source's: what starts as excess and cannot be absorbed is work for nothing.
+//
+// Order. Active nodes are worked off in waves, those that become active meanwhile wait for the
+// next; a global relabelling sorts the wave by label, the greatest first, so that excess of many
+// nodes runs together on its way down. Highest label first moves the excess that is left behind a
+// saturated cut about in a small part of it at a time (push_relabel_highest.cpp does that,
+// README.md has both measured).
 //
 // Invariants. (1) The labelling is valid, so d(i) is a lower bound on the number of arcs from i to
-// a sink. (2) A node with d(i) = n cannot reach a sink ("set aside"). (3) Every node with d < n is
-// in the level list of its label, every active one also in that label's stack. (4) No active node
-// has a label above `highest_`.
+// a sink. (2) A node with d(i) = n cannot reach a sink ("set aside"). (3) Every active node with
+// d < n is in the wave in hand or in the next.
 //
 // Heuristics. Exact labels by breadth-first search against residual arcs from all sinks, at the
-// start of each phase and whenever relabelling has cost as much as such a search. Gap: where a
-// level runs empty, all nodes above it are set aside.
+// start and, between waves, whenever relabelling has cost about a quarter of such a search. That
+// is six times as often as Cherkassky and Goldberg advise, and finds cut-off regions so early that
+// lists of levels, to find gaps among the labels, no longer pay for themselves.
 //
-// Complexity. O(n^2 sqrt(m)) for highest label selection (Cheriyan and Maheshwari 1989), each
-// phase.
+// Complexity. O(n^3) for first in first out (Goldberg and Tarjan 1988). Layout: 24 bytes per node,
+// 16 per arc.
 //
 // References.
 //   A. V. Goldberg, R. E. Tarjan: A new approach to the maximum-flow problem. Journal of the ACM
 //   35(4), 1988. B. V. Cherkassky, A. V. Goldberg: On implementing the push-relabel method for the
-//   maximum flow problem. Algorithmica 19, 1997 (highest label, global relabelling, gap). J.
-//   Cheriyan, S. N. Maheshwari: Analysis of preflow push algorithms for maximum network flow. SIAM
-//   Journal on Computing 18(6), 1989.
+//   maximum flow problem. Algorithmica 19, 1997 (global relabelling, two phases).
 //
-// Licence: GPL-3.0-or-later, this project's own code. Capabilities: exact for every valid problem,
-// returns a flow, one thread, can be cancelled.
+// Licence: GPL-3.0-or-later, this project's own code. Capabilities: exact for every valid problem
+// with fewer than 2^30 edges, returns a flow, one thread, can be cancelled.
 #include <algorithm>
-#include <limits>
 #include <memory>
 
-#include "solvers/residual_graph.h"
+#include "solvers/packed_graph.h"
 #include "solvers/solvers.h"
 
 namespace cellocut::solvers {
 
 namespace {
 
-constexpr std::uint32_t kNone = 0xffff'ffffU;
-
 struct Node {
   std::int64_t balance;
   std::uint32_t first;    // of its row of arcs; the next node's `first` ends it
   std::uint32_t current;  // arc at which the search for an admissible one goes on
   std::uint32_t label;
-  std::uint32_t next_active;  // in the stack of active nodes of this label
-  std::uint32_t next_level;   // in the doubly linked list of all nodes of this label
-  std::uint32_t previous_level;
 };
 
 class Preflow {
  public:
-  Preflow(ResidualGraph& graph, const SolveContext& context);
+  Preflow(PackedGraph& graph, const SolveContext& context);
   // Moves as much excess as possible into nodes of negative balance.
   void run();
-  // Between the phases: from "absorbs for the sink" to "absorbs what it drew from the source".
-  void turn_to_source(const std::vector<std::int64_t>& terminal);
+  [[nodiscard]] std::vector<std::int64_t> excess() const;
 
   std::int64_t pushes = 0;
   std::int64_t relabels = 0;
   std::int64_t global_relabels = 0;
-  std::int64_t gaps = 0;
   [[nodiscard]] std::int64_t bytes() const {
     return static_cast<std::int64_t>(nodes_.size() * sizeof(Node) +
-                                     (active_.size() + level_.size() + queue_.size()) *
+                                     (queue_.size() + wave_.capacity() + next_.capacity()) *
                                          sizeof(std::uint32_t));
   }
 
@@ -87,71 +79,36 @@ class Preflow {
   void global_relabel();
   void discharge(std::uint32_t i);
   void relabel(std::uint32_t i);
-  void close_gap(std::uint32_t empty_level);
-  void add_to_level(std::uint32_t i);
-  void remove_from_level(std::uint32_t i);
-  void add_active(std::uint32_t i) {
-    Node& node = nodes_[i];
-    node.next_active = active_[node.label];
-    active_[node.label] = i;
-    highest_ = std::max(highest_, node.label);
-  }
 
   std::uint32_t count_;
-  std::vector<Node> nodes_;            // and one behind the last, for its `first`
-  std::vector<std::uint32_t> active_;  // per label, top of the stack of active nodes
-  std::vector<std::uint32_t> level_;   // per label, first of the list of nodes
-  std::vector<std::uint32_t> queue_;   // of the breadth-first search
-  const Arc* arcs_;
-  std::int64_t* residual_;
+  std::vector<Node> nodes_;           // and one behind the last, for its `first`
+  std::vector<std::uint32_t> wave_;   // active nodes, in the order in which they are worked off
+  std::vector<std::uint32_t> next_;   // those that became active since, or still are
+  std::vector<std::uint32_t> queue_;  // of the breadth-first search
+  PackedGraph& graph_;
+  const PackedArc* arcs_;
   const SolveContext& context_;
-  std::uint32_t highest_ = 0;        // no active node above
-  std::uint32_t highest_level_ = 0;  // no node in a level list above
-  std::int64_t work_ = 0;            // since the last global relabelling
+  std::int64_t work_ = 0;  // since the last global relabelling
 };
 
-Preflow::Preflow(ResidualGraph& graph, const SolveContext& context)
+Preflow::Preflow(PackedGraph& graph, const SolveContext& context)
     : count_(graph.node_count()),
       nodes_(std::size_t{count_} + 1),
-      active_(std::size_t{count_} + 1),
-      level_(std::size_t{count_} + 1),
       queue_(count_),
+      graph_(graph),
       arcs_(graph.arcs.data()),
-      residual_(graph.residual.data()),
       context_(context) {
   for (std::uint32_t i = 0; i < count_; ++i) {
-    nodes_[i] = {graph.terminal[i], graph.row[i], graph.row[i], 0, kNone, kNone, kNone};
+    nodes_[i] = {graph.terminal[i], graph.row[i], graph.row[i], 0};
   }
-  nodes_[count_] = {0, graph.row[count_], graph.row[count_], 0, kNone, kNone, kNone};
-}
-
-inline void Preflow::add_to_level(std::uint32_t i) {
-  Node& node = nodes_[i];
-  node.next_level = level_[node.label];
-  node.previous_level = kNone;
-  if (node.next_level != kNone) nodes_[node.next_level].previous_level = i;
-  level_[node.label] = i;
-  highest_level_ = std::max(highest_level_, node.label);
-}
-
-inline void Preflow::remove_from_level(std::uint32_t i) {
-  const Node& node = nodes_[i];
-  if (node.previous_level == kNone) {
-    level_[node.label] = node.next_level;
-  } else {
-    nodes_[node.previous_level].next_level = node.next_level;
-  }
-  if (node.next_level != kNone) nodes_[node.next_level].previous_level = node.previous_level;
+  nodes_[count_] = {0, graph.row[count_], graph.row[count_], 0};
 }
 
 // Labels become exact distances to the nodes of negative balance; the rest is set aside.
 void Preflow::global_relabel() {
   ++global_relabels;
   work_ = 0;
-  highest_ = 0;
-  highest_level_ = 0;
-  std::fill(active_.begin(), active_.end(), kNone);
-  std::fill(level_.begin(), level_.end(), kNone);
+  next_.clear();
   std::uint32_t queued = 0;
   for (std::uint32_t i = 0; i < count_; ++i) {
     Node& node = nodes_[i];
@@ -164,43 +121,28 @@ void Preflow::global_relabel() {
   }
   for (std::uint32_t k = 0; k < queued; ++k) {
     const std::uint32_t i = queue_[k];
-    add_to_level(i);
     const Node& node = nodes_[i];
-    if (node.balance > 0) add_active(i);
+    if (node.balance > 0) next_.push_back(i);
     for (std::uint32_t a = node.first; a < nodes_[i + 1].first; ++a) {
       Node& other = nodes_[arcs_[a].head];
-      if (other.label == count_ && residual_[arcs_[a].id ^ 1U] > 0) {
+      if (other.label == count_ && arcs_[a].sister_open != 0) {
         other.label = node.label + 1;
         queue_[queued++] = arcs_[a].head;
       }
     }
   }
+  std::reverse(next_.begin(), next_.end());
 }
 
-// All nodes above the empty level are cut off from the sinks.
-void Preflow::close_gap(std::uint32_t empty_level) {
-  ++gaps;
-  for (std::uint32_t d = empty_level + 1; d <= highest_level_; ++d) {
-    for (std::uint32_t i = level_[d]; i != kNone; i = nodes_[i].next_level) {
-      nodes_[i].label = count_;
-    }
-    level_[d] = kNone;
-    active_[d] = kNone;
-  }
-  highest_level_ = empty_level;
-  highest_ = std::min(highest_, empty_level);
-}
-
-// Precondition: i has no admissible arc and is in no stack of active nodes.
+// Precondition: i has no admissible arc.
 void Preflow::relabel(std::uint32_t i) {
   ++relabels;
   Node& node = nodes_[i];
-  const std::uint32_t before = node.label;
   std::uint32_t least = count_;
   std::uint32_t where = node.first;
   const std::uint32_t end = nodes_[i + 1].first;
   for (std::uint32_t a = node.first; a < end; ++a) {
-    if (residual_[arcs_[a].id] == 0) continue;
+    if (arcs_[a].residual == 0) continue;
     const std::uint32_t label = nodes_[arcs_[a].head].label;
     if (label < least) {
       least = label;
@@ -209,83 +151,72 @@ void Preflow::relabel(std::uint32_t i) {
   }
   constexpr std::int64_t kRelabelCost = 12;
   work_ += kRelabelCost + end - node.first;
-  remove_from_level(i);
   node.current = where;
-  if (level_[before] == kNone) {
-    node.label = count_;
-    close_gap(before);
-  } else if (least + 1 >= count_) {
-    node.label = count_;
-  } else {
-    node.label = least + 1;
-    add_to_level(i);
-  }
+  node.label = std::min(least + 1, count_);
 }
 
-// Pushes until the excess of i is gone or i is set aside.
+// Pushes until the excess of i is gone; where that takes a new label, i waits for the next wave.
 void Preflow::discharge(std::uint32_t i) {
   Node& node = nodes_[i];
   const std::uint32_t end = nodes_[i + 1].first;
-  while (node.label < count_) {
-    for (; node.current < end; ++node.current) {
-      const Arc arc = arcs_[node.current];
-      if (residual_[arc.id] == 0) continue;
-      Node& other = nodes_[arc.head];
-      if (other.label + 1 != node.label) continue;
-      const std::int64_t amount = std::min(node.balance, residual_[arc.id]);
-      residual_[arc.id] -= amount;
-      residual_[arc.id ^ 1U] += amount;
-      const bool was_active = other.balance > 0;
-      other.balance += amount;
-      node.balance -= amount;
-      ++pushes;
-      if (!was_active && other.balance > 0) add_active(arc.head);
-      if (node.balance == 0) return;
-    }
-    relabel(i);
+  for (; node.current < end; ++node.current) {
+    const PackedArc& arc = arcs_[node.current];
+    if (arc.residual == 0) continue;
+    Node& other = nodes_[arc.head];
+    if (other.label + 1 != node.label) continue;
+    const std::int64_t amount = std::min(node.balance, arc.residual);
+    graph_.push(node.current, amount);
+    const bool was_active = other.balance > 0;
+    other.balance += amount;
+    node.balance -= amount;
+    ++pushes;
+    if (!was_active && other.balance > 0) next_.push_back(arc.head);
+    if (node.balance == 0) return;
   }
+  relabel(i);
+  if (node.label < count_) next_.push_back(i);
 }
 
 void Preflow::run() {
   constexpr std::int64_t kPollInterval = 4096;
-  // Twice as rare as in Cherkassky and Goldberg: a tenth faster on cuts of tetrahedra.
-  const std::int64_t interval = 12 * std::int64_t{count_} + nodes_[count_].first;
+  const std::int64_t interval = 2 * std::int64_t{count_} + nodes_[count_].first / 4;
   global_relabel();
-  for (std::int64_t step = 1;; ++step) {
-    if (step % kPollInterval == 0) context_.check();
-    while (highest_ > 0 && active_[highest_] == kNone) --highest_;
-    const std::uint32_t i = active_[highest_];
-    if (i == kNone) return;
-    active_[highest_] = nodes_[i].next_active;
-    discharge(i);
+  std::int64_t step = 0;
+  while (!next_.empty()) {
+    wave_.swap(next_);
+    next_.clear();
+    for (const std::uint32_t i : wave_) {
+      if (++step % kPollInterval == 0) context_.check();
+      discharge(i);
+    }
     if (work_ > interval) global_relabel();
   }
 }
 
-void Preflow::turn_to_source(const std::vector<std::int64_t>& terminal) {
-  for (std::uint32_t i = 0; i < count_; ++i) {
-    std::int64_t& balance = nodes_[i].balance;
-    balance = std::max<std::int64_t>(balance, 0) - std::max<std::int64_t>(terminal[i], 0);
-  }
+std::vector<std::int64_t> Preflow::excess() const {
+  std::vector<std::int64_t> result(count_);
+  for (std::uint32_t i = 0; i < count_; ++i) result[i] = nodes_[i].balance;
+  return result;
 }
 
 // The same problem with source and sink exchanged and every arc turned round: its residual
 // capacities are those of the opposite arcs, so doing it twice is doing nothing.
-void mirror(ResidualGraph& graph) {
+void mirror(PackedGraph& graph) {
   for (std::int64_t& terminal : graph.terminal) terminal = -terminal;
-  for (std::size_t a = 0; a < graph.residual.size(); a += 2) {
-    std::swap(graph.residual[a], graph.residual[a + 1]);
+  for (std::uint32_t a = 0; a < graph.arcs.size(); ++a) {
+    PackedArc& arc = graph.arcs[a];
+    if (arc.sister < a) continue;
+    PackedArc& sister = graph.arcs[arc.sister];
+    std::swap(arc.residual, sister.residual);
+    arc.sister_open = sister.residual != 0;
+    sister.sister_open = arc.residual != 0;
   }
 }
 
-// Whether fewer nodes are joined to the sink than to the source. Every node that starts with excess
-// has to be worked off, and a cut that leaves most of a body on one side joins most of its nodes to
-// that terminal: the other one is the better source.
-bool fewer_at_sink(const ResidualGraph& graph) {
+// Whether less can flow into the sink than out of the source, by the capacities of their arcs.
+bool less_at_sink(const PackedGraph& graph) {
   std::int64_t more_at_source = 0;
-  for (const std::int64_t terminal : graph.terminal) {
-    more_at_source += (terminal > 0 ? 1 : 0) - (terminal < 0 ? 1 : 0);
-  }
+  for (const std::int64_t terminal : graph.terminal) more_at_source += terminal;
   return more_at_source > 0;
 }
 
@@ -295,7 +226,7 @@ class PushRelabel final : public CutSolver {
     static const SolverInfo info = [] {
       SolverInfo i;
       i.name = "push_relabel";
-      i.summary = "highest label first, global relabelling, gaps; returns a flow";
+      i.summary = "preflows in waves, global relabelling; returns a flow";
       i.licence = "GPL-3.0-or-later";
       i.reference =
           "Goldberg and Tarjan, J. ACM 35(4), 1988; Cherkassky and Goldberg, Algorithmica 19, 1997";
@@ -307,22 +238,21 @@ class PushRelabel final : public CutSolver {
  private:
   SolverOutput do_solve(const CutProblem& problem, SolveContext& context) override {
     context.check();
-    ResidualGraph graph(problem);
-    const bool mirrored = fewer_at_sink(graph);
+    PackedGraph graph(problem);
+    const bool mirrored = less_at_sink(graph);
     if (mirrored) mirror(graph);
     Preflow preflow(graph, context);
     context.built();
-    if (graph.node_count() > 0) {
-      preflow.run();
-      preflow.turn_to_source(graph.terminal);
-      preflow.run();
+    if (graph.node_count() > 0) preflow.run();
+    std::vector<std::int64_t> excess = preflow.excess();
+    if (mirrored) {
+      mirror(graph);
+      for (std::int64_t& amount : excess) amount = -amount;
     }
-    if (mirrored) mirror(graph);
-    return {graph.edge_flow(problem),
+    return {returned_flow(graph, problem, excess, context),
             {{"pushes", preflow.pushes},
              {"relabels", preflow.relabels},
              {"global_relabels", preflow.global_relabels},
-             {"gaps", preflow.gaps},
              {"mirrored", mirrored ? 1 : 0}},
             graph.bytes() + preflow.bytes()};
   }

@@ -16,8 +16,8 @@
 #include "tools/exit_code.h"
 #include "tools/pipeline_arguments.h"
 #include "tools/problem_io.h"
-#include "tools/relaxation_arguments.h"
 #include "tools/session.h"
+#include "tools/solver_arguments.h"
 #ifdef CELLOCUT_WITH_VIZ
 #include "tools/labelled_cells.h"
 #endif
@@ -56,7 +56,7 @@ void add_arguments(CLI::App& app, CompareArguments& a) {
   app.add_option("--time-limit", a.comparison.seconds_limit,
                  "Seconds after which a solve is given up; 0: never")
       ->capture_default_str();
-  add_relaxation_options(app, a.comparison.relaxation);
+  add_solver_options(app, a.comparison.reduce, a.comparison.relaxation);
   app.add_flag("--no-crossover", a.no_crossover,
                "lp: leave it at a labelling and a bound, with no flow and no certificate");
   app.add_flag("--write-problems", a.write_problems, "Each mesh's problem too, as .max and .bbk");

@@ -104,17 +104,30 @@ Json run_json(const SolverRun& run) {
   return row;
 }
 
+// Of the solver's own arrays over the edges of the problem, where the solver tells.
+double bytes_per_edge(const std::vector<ComparedInstance>& instances, std::size_t solver) {
+  double bytes = 0;
+  double edges = 0;
+  for (const ComparedInstance& instance : instances) {
+    if (!instance.runs[solver].refused.empty()) continue;
+    bytes += static_cast<double>(instance.runs[solver].result.bytes);
+    edges += static_cast<double>(instance.edges);
+  }
+  return edges > 0 ? bytes / edges : 0;
+}
+
 void add_means(std::string& text, const std::vector<ComparedInstance>& instances) {
   const std::vector<double> solve = relative_means(instances, solve_time);
   const std::vector<double> whole = relative_means(instances, whole_time);
   if (solve.empty()) return;
   text += fmt::format(
       "\ngeometric mean against the fastest, over the instances that all solved\n"
-      "  {:<20} {:>8} {:>14}\n",
-      "solver", "solve", "build + solve");
+      "  {:<20} {:>8} {:>14} {:>15}\n",
+      "solver", "solve", "build + solve", "bytes per edge");
   for (std::size_t s = 0; s < solve.size(); ++s) {
-    text += fmt::format("  {:<20} {:>8.2f} {:>14.2f}\n", instances.front().runs[s].info.name,
-                        solve[s], whole[s]);
+    const double bytes = bytes_per_edge(instances, s);
+    text += fmt::format("  {:<20} {:>8.2f} {:>14.2f} {:>15}\n", instances.front().runs[s].info.name,
+                        solve[s], whole[s], bytes > 0 ? fmt::format("{:.1f}", bytes) : "not told");
   }
 }
 

@@ -13,9 +13,9 @@
 #include "tools/exit_code.h"
 #include "tools/pipeline_arguments.h"
 #include "tools/problem_io.h"
-#include "tools/relaxation_arguments.h"
 #include "tools/report_json.h"
 #include "tools/session.h"
+#include "tools/solver_arguments.h"
 #ifdef CELLOCUT_WITH_VIZ
 #include "tools/labelled_cells.h"
 #endif
@@ -65,7 +65,7 @@ void add_arguments(CLI::App& app, RemeshArguments& a) {
          "sdf: signed distance of the interface, marching cubes; cells: the interface itself")
       ->check(CLI::IsMember({"sdf", "cells"}))
       ->capture_default_str();
-  add_relaxation_options(app, a.pipeline.options.relaxation);
+  add_solver_options(app, a.pipeline.options.reduce, a.pipeline.options.relaxation);
   app.add_option("--min-component", a.pipeline.options.min_component,
                  "Drop components below this share of the total volume, 0 to 1")
       ->capture_default_str();

@@ -14,8 +14,8 @@
 #include "tools/commands.h"
 #include "tools/exit_code.h"
 #include "tools/problem_io.h"
-#include "tools/relaxation_arguments.h"
 #include "tools/session.h"
+#include "tools/solver_arguments.h"
 
 namespace cellocut::tools {
 
@@ -33,6 +33,7 @@ struct SolveArguments {
   std::string problem;
   bool statistics = false;
   bool no_crossover = false;
+  bool reduce = false;
   RelaxationOptions relaxation{};
 };
 
@@ -48,7 +49,7 @@ void add_arguments(CLI::App& app, SolveArguments& a) {
   app.add_option("--problem", a.problem, "The problem again, as .max or .bbk");
   app.add_flag("--statistics", a.statistics,
                "Degrees, capacities, terminals, components and a bound of the diameter");
-  add_relaxation_options(app, a.relaxation);
+  add_solver_options(app, a.reduce, a.relaxation);
   app.add_flag("--no-crossover", a.no_crossover,
                "lp: leave it at a labelling and a bound, with no flow and no canonical cuts");
   a.common.add_to(app);
@@ -136,8 +137,9 @@ int run_solve(const SolveArguments& a) {
   const DimacsProblem problem = read_problem(a.input, *format);
   const double read_seconds = stopwatch.seconds();
   observer.stage("minimum cut");
-  const CutResult cut =
-      solver->solve(problem.problem, SolveOptions{.observer = &observer, .relaxation = relaxation});
+  const CutResult cut = solver->solve(
+      problem.problem,
+      SolveOptions{.observer = &observer, .relaxation = relaxation, .reduce = a.reduce});
   observer.stage("write");
   std::string defect;
   if (cut.status == CutStatus::invalid) {

@@ -146,8 +146,9 @@ void minimise_cut(RemeshResult& result, const RemeshOptions& options, CutSolver&
   CutResult cut = stage("minimum cut", [&] {
     RelaxationOptions relaxation = options.relaxation;
     relaxation.crossover = true;
-    return solver.solve(result.graph.problem,
-                        SolveOptions{.observer = &observer, .relaxation = relaxation});
+    return solver.solve(
+        result.graph.problem,
+        SolveOptions{.observer = &observer, .relaxation = relaxation, .reduce = options.reduce});
   });
   if (cut.status == CutStatus::invalid) {
     result.cut = std::move(cut);

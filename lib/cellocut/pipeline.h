@@ -46,6 +46,7 @@ struct RemeshOptions {
   bool unary = true;       // false: L* only sets weights, nothing is anchored interior (ablation)
   // Surface components of less than this share of the total volume are dropped; 0 to 1.
   double min_component = 0;
+  bool reduce = false;  // the problem, exactly, before it is solved (SolveOptions::reduce)
   // When a relaxation stops; it is always completed to a flow, without which there is no
   // certificate.
   RelaxationOptions relaxation{};

@@ -21,7 +21,7 @@ a 5 6 2
 a 3 2 1
 """
 SMALL_VALUE = 5
-EXACT = ("bk", "push_relabel", "ibfs")
+EXACT = ("bk", "bk_blocks", "push_relabel", "push_relabel_highest", "ibfs")
 
 
 class Solve(ProgramCase):
@@ -36,6 +36,20 @@ class Solve(ProgramCase):
                 cut = self.report()["cut"]
                 self.assertEqual((cut["value"], cut["lower_bound"], cut["gap"]), (SMALL_VALUE, SMALL_VALUE, 0))
                 self.assertEqual(cut["status"], "optimal")
+
+    def test_a_reduced_problem_has_the_same_answer_and_says_what_was_removed(self):
+        self.put("small.max", SMALL)
+        self.succeed("solve", "small.max", "--json", "r.json", "--quiet")
+        plain = self.report()["cut"]
+        self.succeed("solve", "small.max", "--reduce", "--sol", "out.sol", "--json", "r.json", "--quiet")
+        reduced = self.report()["cut"]
+        for field in ("value", "lower_bound", "status", "source_side_smallest", "source_side_largest"):
+            self.assertEqual(reduced[field], plain[field])
+        self.assertNotIn("reduced_dominated", plain["counters"])
+        counters = reduced["counters"]
+        removed = sum(counters["reduced_" + rule] for rule in ("unreachable", "dominated", "heavy_edges", "isolated"))
+        self.assertGreater(removed, 0)
+        self.succeed("solve", "small.max", "--check", "out.sol", "--quiet")
 
     def test_the_solution_is_a_maximum_flow_and_another_is_told_from_it(self):
         self.put("small.max", SMALL)

@@ -1,4 +1,4 @@
-// Options of the commands that run a relaxation: when it stops.
+// Options of the commands that run solvers: what is done before, and when a relaxation stops.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -7,7 +7,10 @@
 
 namespace cellocut::tools {
 
-inline void add_relaxation_options(CLI::App& app, RelaxationOptions& options) {
+inline void add_solver_options(CLI::App& app, bool& reduce, RelaxationOptions& options) {
+  app.add_flag(
+      "--reduce", reduce,
+      "Reduce the problem exactly before it is solved; the report counts what that removed");
   app.add_option("--lp-gap", options.relative_gap,
                  "lp: stop at this relative gap, 0 to below 1; 0: at a proof only")
       ->capture_default_str();

@@ -3,11 +3,14 @@
 #include <tbb/global_control.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
+#include <random>
 
 #include "cellocut/field/distance_field.h"
 #include "cellocut/field/flood_sign.h"
+#include "cellocut/field/triangle_set.h"
 #include "cellocut/surface/signed_distance.h"
 #include "hand_made_field.h"
 #include "support/defective_meshes.h"
@@ -366,6 +369,33 @@ TEST(Frame, KeepsTheMarginAndShiftsTheBoxAgainstTheGrid) {
   const Frame larger = make_frame({{-8, 16, 40}, {24, 24, 48}}, 64, 3.5);
   EXPECT_EQ(larger.spacing, 8 * frame.spacing);
   for (int axis = 0; axis < 3; ++axis) EXPECT_EQ(larger.origin[axis], 8 * frame.origin[axis]);
+}
+
+// Whatever the processor: the lanes do what one point at a time does, bit for bit.
+TEST(DistanceTriangle, EightPointsAtOnceHaveTheDistancesOfEach) {
+  std::mt19937_64 random(1);
+  const auto coordinate = [&random] { return 20 * 0x1p-53 * static_cast<double>(random() >> 11); };
+  const auto point = [&] { return Point3{coordinate(), coordinate(), coordinate()}; };
+  for (int trial = 0; trial < 20000; ++trial) {
+    const Point3 a = point();
+    const Point3 b = trial % 11 == 0 ? a : point();  // some have no interior, some no length
+    const Point3 c = trial % 5 == 0 ? b : (trial % 7 == 0 ? 0.5 * (a + b) : point());
+    const DistanceTriangle triangle(a, b, c);
+    EightPoints points{};
+    for (std::size_t i = 0; i < 8; ++i) {
+      const Point3 p = trial % 3 == 0 && i == 0 ? a : point();
+      points.x[i] = p[0];
+      points.y[i] = p[1];
+      points.z[i] = p[2];
+    }
+    Eight squared{};
+    triangle.squared_distances(points, squared);
+    for (std::size_t i = 0; i < 8; ++i) {
+      const Point3 p{points.x[i], points.y[i], points.z[i]};
+      ASSERT_EQ(std::bit_cast<std::uint64_t>(squared[i]),
+                std::bit_cast<std::uint64_t>(triangle.squared_distance(p)));
+    }
+  }
 }
 
 }  // namespace

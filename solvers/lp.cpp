@@ -123,7 +123,8 @@ void Relaxation::adapt_step(const lp::Movement& movement) {
   const double weight = steps_.weight;
   const double limit =
       0.5 * (weight * movement.primal + movement.dual / weight) / std::abs(movement.cross);
-  const double samples = static_cast<double>(iteration_ / kSampleInterval) + 1;
+  const std::int64_t sample = iteration_ / kSampleInterval + 1;
+  const auto samples = static_cast<double>(sample);
   const double step =
       std::min((1 - std::pow(samples, -0.3)) * limit, (1 + std::pow(samples, -0.6)) * steps_.step);
   steps_.step = static_cast<float>(std::clamp(step, 1.0, 4.0));

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "cellocut/base/errors.h"
 #include "cellocut/base/byte_order.h"
+#include "cellocut/base/errors.h"
 #include "cellocut/mesh/mesh_file.h"
 #include "cellocut/mesh/point_merger.h"
 

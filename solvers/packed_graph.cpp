@@ -10,10 +10,6 @@ namespace {
 
 constexpr std::uint32_t kSisterBits = 0x7fff'ffffU;
 
-bool has_arcs(const CutEdge& edge) {
-  return edge.from != edge.to && (edge.capacity | edge.reverse_capacity) != 0;
-}
-
 // Takes excess back along the arcs it came by. With `sign` -1 the same for deficits.
 class Return {
  public:

@@ -11,10 +11,6 @@ namespace {
 // Solvers keep a few of the highest 32-bit values as marks.
 constexpr std::uint64_t kIndexLimit = 0xffff'fff0U;
 
-bool has_arcs(const CutEdge& edge) {
-  return edge.from != edge.to && (edge.capacity | edge.reverse_capacity) != 0;
-}
-
 }  // namespace
 
 void require_index_range(const CutProblem& problem, std::uint64_t limit) {

@@ -46,6 +46,11 @@ struct ResidualGraph {
   [[nodiscard]] std::vector<std::int64_t> edge_flow(const CutProblem& problem) const;
 };
 
+// Whether an edge can carry flow: it is no loop and has capacity in some direction.
+constexpr bool has_arcs(const CutEdge& edge) {
+  return edge.from != edge.to && (edge.capacity | edge.reverse_capacity) != 0;
+}
+
 // Throws LimitError where nodes or arcs do not fit indices below `limit`.
 void require_index_range(const CutProblem& problem, std::uint64_t limit);
 

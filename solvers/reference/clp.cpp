@@ -121,10 +121,6 @@ class Process {
   pid_t process_ = -1;
 };
 
-bool is_variable(const CutEdge& edge) {
-  return edge.from != edge.to && (edge.capacity | edge.reverse_capacity) != 0;
-}
-
 // Columns are numbered in the order in which their names first appear, in the objective: the edges,
 // then the terminals.
 std::size_t write_program(const CutProblem& problem, const ResidualGraph& graph,
@@ -133,7 +129,7 @@ std::size_t write_program(const CutProblem& problem, const ResidualGraph& graph,
   std::size_t columns = 0;
   file << "Maximize\nvalue:\n";
   for (std::size_t e = 0; e < problem.edges.size(); ++e) {
-    if (!is_variable(problem.edges[e])) continue;
+    if (!has_arcs(problem.edges[e])) continue;
     file << "+ 0 f" << e << "\n";
     ++columns;
   }
@@ -156,7 +152,7 @@ std::size_t write_program(const CutProblem& problem, const ResidualGraph& graph,
   file << "Bounds\n";
   for (std::size_t e = 0; e < problem.edges.size(); ++e) {
     const CutEdge& edge = problem.edges[e];
-    if (!is_variable(edge)) continue;
+    if (!has_arcs(edge)) continue;
     file << -edge.reverse_capacity << " <= f" << e << " <= " << edge.capacity << "\n";
   }
   for (std::uint32_t i = 0; i < graph.node_count(); ++i) {
@@ -227,7 +223,7 @@ class Clp final : public CutSolver {
       const std::vector<double> values = read_columns(solution, columns);
       std::size_t column = 0;
       for (std::size_t e = 0; e < problem.edges.size(); ++e) {
-        if (is_variable(problem.edges[e])) output.edge_flow[e] = std::llround(values[column++]);
+        if (has_arcs(problem.edges[e])) output.edge_flow[e] = std::llround(values[column++]);
       }
     }
     context.check();

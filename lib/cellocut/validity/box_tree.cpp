@@ -11,8 +11,7 @@ namespace cellocut {
 namespace {
 
 constexpr std::size_t kLeafSize = 8;
-constexpr std::size_t kParallelSize =
-    512;  // smaller subtrees, in leaves, are bounded by one thread
+constexpr std::size_t kParallelSize = 512;  // leaves; one thread bounds smaller subtrees
 
 struct Place {
   std::uint64_t code;  // along the curve

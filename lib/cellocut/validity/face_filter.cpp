@@ -23,7 +23,7 @@ int side_of_plane(const Point3& normal, const Point3& origin, const Point3& p) {
   return sum > bound ? 1 : (sum < -bound ? -1 : 0);
 }
 
-// The same for the turn from b - a to p - a, seen along an axis: (Shewchuk, "Adaptive precision
+// The same for the turn from b - a to p - a, seen along an axis (Shewchuk, "Adaptive precision
 // floating-point arithmetic and fast robust geometric predicates", 1997, bounds it by 3 u).
 int side_of_line(const Point3& a, const Point3& b, const Point3& p, int i, int j) {
   const double left = (b[i] - a[i]) * (p[j] - a[j]);

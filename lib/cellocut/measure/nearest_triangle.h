@@ -1,0 +1,46 @@
+// The nearest point of a triangle soup.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <memory>
+
+#include "cellocut/mesh/triangle_soup.h"
+
+namespace cellocut {
+
+// The point of triangle (a, b, c) that is nearest to p; degenerate triangles too (a segment, a
+// point).
+Point3 nearest_on_triangle(const Point3& p, const Point3& a, const Point3& b, const Point3& c);
+
+struct NearestPoint {
+  static constexpr std::uint32_t kNone = 0xFFFFFFFFU;
+  std::uint32_t face = kNone;  // the lowest among those at the same distance
+  Point3 point{};              // on that face, in the units of the soup
+  double distance = std::numeric_limits<double>::infinity();  // in the units of the soup
+  [[nodiscard]] bool found() const { return face != kNone; }
+};
+
+// Embree's hierarchy of boxes finds the candidates, in single precision and with room for its
+// rounding; what decides among them is evaluated in doubles. So the answer is the minimum over all
+// triangles, whatever the order in which they are visited: the same bits for any number of threads.
+class NearestTriangle {
+ public:
+  // Copies what it needs of the soup. Triangles with corners that are not finite are never nearest.
+  // Parallel; O(n log n).
+  explicit NearestTriangle(const TriangleSoup& soup);
+  ~NearestTriangle();
+  NearestTriangle(NearestTriangle&&) noexcept;
+  NearestTriangle& operator=(NearestTriangle&&) noexcept;
+
+  // The nearest point at a distance of up to `limit`; not found() where there is none. May be
+  // called from any number of threads at once. O(log n) on surfaces.
+  [[nodiscard]] NearestPoint operator()(
+      const Point3& p, double limit = std::numeric_limits<double>::infinity()) const;
+
+ private:
+  struct Scene;
+  std::unique_ptr<Scene> scene_;
+};
+
+}  // namespace cellocut

@@ -33,7 +33,7 @@ struct RemeshArguments {
   std::string backend = "cgal";
   std::string solver = "bk";
   std::string cut = "largest";
-  std::string surface = "sdf";
+  std::string surface = "union";
   std::string vtu;
   std::string keep_invalid;
   std::string problem;
@@ -62,9 +62,17 @@ void add_arguments(CLI::App& app, RemeshArguments& a) {
       ->capture_default_str();
   app.add_option(
          "--surface", a.surface,
-         "sdf: signed distance of the interface, marching cubes; cells: the interface itself")
-      ->check(CLI::IsMember({"sdf", "cells"}))
+         "union: phi where supported, absorbed cells where completed; sdf: signed distance of the "
+         "interface, marching cubes; cells: the interface itself")
+      ->check(CLI::IsMember({"union", "sdf", "cells"}))
       ->capture_default_str();
+  app.add_flag_function(
+      "--pull,!--no-pull", [&a](std::int64_t count) { a.options().pull = count > 0; },
+      "Pull supported vertices to the input, off the offset surface (default: with "
+      "--surface union)");
+  app.add_option("--pull-distance", a.pipeline.options.pull_distance,
+                 "What --pull leaves, relative to the longest edge (default: min(1/resolution, "
+                 "epsilon) / 40)");
   add_solver_options(app, a.pipeline.options.reduce, a.pipeline.options.relaxation);
   app.add_option("--min-component", a.pipeline.options.min_component,
                  "Drop components below this share of the total volume, 0 to 1")
@@ -81,7 +89,9 @@ void add_arguments(CLI::App& app, RemeshArguments& a) {
 void complete_options(RemeshArguments& a) {
   a.pipeline.complete();
   a.options().cut = a.cut == "largest" ? CutChoice::largest : CutChoice::smallest;
-  a.options().surface = a.surface == "sdf" ? SurfaceMode::sdf : SurfaceMode::cells;
+  a.options().surface = a.surface == "union" ? SurfaceMode::union_
+                        : a.surface == "sdf" ? SurfaceMode::sdf
+                                             : SurfaceMode::cells;
   const std::optional<MeshFormat> format =
       a.output_format.empty() ? format_of_path(a.output) : format_of_name(a.output_format);
   if (!format) {
@@ -115,6 +125,14 @@ void print_summary(const RemeshResult& result, const RemeshArguments& a, double 
              result.graph.problem.edges.size());
   fmt::print("cut value {} ({}), certificate {}\n", result.cut.value, to_string(result.cut.status),
              result.certificate.valid ? "valid" : "FAILED");
+  if (a.options().pulls()) {
+    const PullReport& pull = result.pull;
+    fmt::print(
+        "pull: {} of {} vertices supported, {} stopped early, {} went back; distance from "
+        "the input median {:.3g}, 95 % {:.3g}\n",
+        pull.supported, pull.vertices, pull.stopped_early, pull.went_back, pull.offset.median,
+        pull.offset.p95);
+  }
   const SurfaceReport& report = result.surface_report;
   fmt::print("surface: {} triangles, {} component{}, volume {:.6g}, {}\n", report.triangles,
              report.components.size(), report.components.size() == 1 ? "" : "s", report.volume,

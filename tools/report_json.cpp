@@ -19,6 +19,39 @@ Json incidence_json(const IncidenceCounts& counts) {
           {"duplicate_faces", counts.duplicate_faces}};
 }
 
+const char* surface_name(SurfaceMode mode) {
+  switch (mode) {
+    case SurfaceMode::union_:
+      return "union";
+    case SurfaceMode::sdf:
+      return "sdf";
+    case SurfaceMode::cells:
+      return "cells";
+  }
+  return "";
+}
+
+// Lengths and volumes in input units.
+Json surface_json(const RemeshResult& result, const RemeshOptions& options) {
+  Json surface;
+  if (options.surface == SurfaceMode::union_) {
+    const LabellingDepartures& departures = result.departures;
+    surface["departures"] = {{"solid_beyond_labelling_volume", departures.beyond},
+                             {"left_out_volume", departures.left_out},
+                             {"pockets_closed", departures.pockets},
+                             {"pocket_volume", departures.pocket_volume}};
+  }
+  if (options.pulls()) {
+    const PullReport& pull = result.pull;
+    surface["pull"] = {{"distance", pull.distance},     {"vertices", pull.vertices},
+                       {"supported", pull.supported},   {"stopped_early", pull.stopped_early},
+                       {"went_back", pull.went_back},   {"pairs_at_first", pull.pairs_at_first},
+                       {"rounds", pull.rounds},         {"offset_median", pull.offset.median},
+                       {"offset_p95", pull.offset.p95}, {"offset_largest", pull.offset.largest}};
+  }
+  return surface;
+}
+
 Json parameters_json(const RemeshResult& result, const RemeshOptions& options) {
   return {{"resolution", options.resolution},
           {"epsilon", result.derived.epsilon},
@@ -31,7 +64,9 @@ Json parameters_json(const RemeshResult& result, const RemeshOptions& options) {
           {"exterior", options.exterior == ExteriorMode::unbounded ? "unbounded" : "hull-cells"},
           {"area_bits", options.area_bits},
           {"cut", options.cut == CutChoice::largest ? "largest" : "smallest"},
-          {"surface", options.surface == SurfaceMode::sdf ? "sdf" : "cells"},
+          {"surface", surface_name(options.surface)},
+          {"pull", options.pulls()},
+          {"pull_distance", result.derived.pull_distance},
           {"thickening", options.thickening},
           {"unary", options.unary},
           {"min_component", options.min_component}};
@@ -151,6 +186,7 @@ Json remesh_json(const RemeshResult& result, const RemeshOptions& options,
                       {"cells_enclosed", result.graph.enclosed_cells}};
   report["cut"] = cut_json(result, options, facts);
   report["certificate"] = certificate_json(result.certificate);
+  report["surface"] = surface_json(result, options);
   report["output"] = output_json(result.surface_report, facts.output);
   report["output"]["dropped_components"] = result.dropped_components;
   return report;

@@ -33,6 +33,12 @@ void RemeshOptions::validate() const {
           "--epsilon-abs must be above 0");
   require(decimate >= 0 && decimate <= 0.99, "--decimate must be between 0 and 0.99");
   require(area_bits >= 8 && area_bits <= 50, "--area-bits must be between 8 and 50");
+  require(surface != SurfaceMode::union_ || (thickening && unary),
+          "--no-thickening and --no-unary need --surface sdf or cells");
+  require(surface != SurfaceMode::cells || !pulls(), "--surface cells cannot be pulled");
+  require(!pull_distance || pulls(), "--pull-distance needs --pull");
+  require(!pull_distance || (*pull_distance > 0 && *pull_distance <= 1),
+          "--pull-distance must be above 0 and at most 1");
   require(min_component >= 0 && min_component <= 1, "--min-component must be between 0 and 1");
 }
 
@@ -65,6 +71,11 @@ DerivedParameters derive_parameters(const TriangleSoup& input, const RemeshOptio
   }
   derived.epsilon_steps = derived.epsilon * options.resolution;
   derived.epsilon_below_step = options.thickening && derived.epsilon < step;
+  derived.pull_distance = options.pull_distance.value_or(std::min(step, derived.epsilon) / 40);
+  if (options.pulls() && derived.pull_distance > derived.epsilon) {
+    throw UsageError("--pull-distance must be at most epsilon, here " +
+                     short_decimal(derived.epsilon));
+  }
   return derived;
 }
 

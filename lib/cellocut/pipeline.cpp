@@ -10,6 +10,8 @@
 #include "cellocut/surface/interface.h"
 #include "cellocut/surface/iso_surface.h"
 #include "cellocut/surface/signed_distance.h"
+#include "cellocut/surface/support.h"
+#include "cellocut/surface/union_field.h"
 
 namespace cellocut {
 
@@ -74,12 +76,32 @@ CertificateReport certify(const RemeshResult& result, const RemeshOptions& optio
                             .unary = options.unary});
 }
 
-TriangleSoup extract_surface(const RemeshResult& result, SurfaceMode mode, Observer& observer) {
-  if (mode == SurfaceMode::cells) return extract_interface_cells(result.complex, result.label);
-  const TriangleSoup interface =
-      interface_triangles(result.complex, list_interface(result.complex, result.label));
-  TriangleSoup surface =
-      extract_iso_surface(compute_signed_distance(interface, result.frame, observer));
+// The surface in index coordinates of the grid.
+TriangleSoup extract_iso_surface(RemeshResult& result, SurfaceMode mode, Observer& observer) {
+  if (mode == SurfaceMode::sdf) {
+    const TriangleSoup interface =
+        interface_triangles(result.complex, list_interface(result.complex, result.label));
+    return extract_iso_surface(compute_signed_distance(interface, result.frame, observer));
+  }
+  const UnionField combined = compute_union_field(result.phi, result.complex, result.initial_label,
+                                                  result.label, result.frame, observer);
+  result.departures = combined.departures;
+  return extract_iso_surface(combined.field);
+}
+
+TriangleSoup extract_surface(RemeshResult& result, const RemeshOptions& options,
+                             Observer& observer) {
+  if (options.surface == SurfaceMode::cells) {
+    TriangleSoup surface = extract_interface_cells(result.complex, result.label);
+    result.dropped_components = drop_small_components(surface, options.min_component);
+    TriangleSoup on_grid = surface;
+    to_index_coordinates(on_grid, result.frame);
+    result.supported = find_supported(on_grid, result.phi);
+    return surface;
+  }
+  TriangleSoup surface = extract_iso_surface(result, options.surface, observer);
+  result.dropped_components = drop_small_components(surface, options.min_component);
+  result.supported = find_supported(surface, result.phi);
   to_input_units(surface, result.frame);
   return surface;
 }
@@ -169,11 +191,14 @@ RemeshResult remesh(const TriangleSoup& input, const RemeshOptions& options,
   minimise_cut(result, options, solver, observer);
   if (result.cut.status == CutStatus::invalid || result.empty_solid()) return result;
   StageClock stage(result.stages, observer);
-  result.surface = stage("surface", [&] {
-    TriangleSoup surface = extract_surface(result, options.surface, observer);
-    result.dropped_components = drop_small_components(surface, options.min_component);
-    return as_read_back(surface, options.output_format);
-  });
+  result.surface = stage("surface", [&] { return extract_surface(result, options, observer); });
+  if (options.pulls()) {
+    result.pull = stage("pull", [&] {
+      return pull_to_input(result.surface, result.supported, NearestTriangle(input),
+                           result.derived.pull_distance * result.frame.unit, observer);
+    });
+  }
+  result.surface = as_read_back(std::move(result.surface), options.output_format);
   result.surface_report = stage("validity", [&] {
     return inspect_surface(result.surface, SurfaceCheckOptions{.observer = &observer});
   });

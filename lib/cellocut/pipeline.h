@@ -17,11 +17,14 @@
 #include "cellocut/mesh/mesh_file.h"
 #include "cellocut/mesh/triangle_soup.h"
 #include "cellocut/proxy/proxy.h"
+#include "cellocut/surface/pull.h"
+#include "cellocut/surface/union_field.h"
 #include "cellocut/validity/surface_report.h"
 
 namespace cellocut {
 
 enum class SurfaceMode {
+  union_,  // phi where the surface is supported, the absorbed cells where it was completed
   sdf,   // signed distance of the interface, marching cubes (the paper's)
   cells  // the facets of the interface, made manifold by splitting
 };
@@ -41,7 +44,13 @@ struct RemeshOptions {
   ExteriorMode exterior = ExteriorMode::unbounded;
   int area_bits = 40;  // facet areas sum to at most 2^area_bits quanta; 8 to 50
   CutChoice cut = CutChoice::largest;
-  SurfaceMode surface = SurfaceMode::sdf;
+  SurfaceMode surface = SurfaceMode::union_;
+  // Whether supported vertices are pulled to the input; by default with `union_` alone, never with
+  // `cells`.
+  std::optional<bool> pull;
+  // The distance from the input that pulled vertices keep, relative to the longest edge; above 0, at
+  // most epsilon. Default min(1/R, epsilon) / 40.
+  std::optional<double> pull_distance;
   bool thickening = true;  // false: phi is the flood-signed distance, no offset (ablation)
   bool unary = true;       // false: L* only sets weights, nothing is anchored interior (ablation)
   // Surface components of less than this share of the total volume are dropped; 0 to 1.
@@ -52,6 +61,8 @@ struct RemeshOptions {
   RelaxationOptions relaxation{};
   // The format that the surface will be written in: it is judged as a reader will see it.
   MeshFormat output_format = MeshFormat::obj;
+
+  [[nodiscard]] bool pulls() const { return pull.value_or(surface == SurfaceMode::union_); }
 
   // Errors: UsageError that names the option and what it may be.
   void validate() const;
@@ -67,10 +78,12 @@ struct DerivedParameters {
   double epsilon = 0;               // relative
   double epsilon_steps = 0;         // in grid steps
   bool epsilon_below_step = false;  // eps < h: thin parts may perforate
+  double pull_distance = 0;         // relative
 };
 
 // Errors: InputError for a mesh without faces or extent; UsageError where eps < h / 2 (a slab
-// thinner than the grid perforates), naming the smallest usable resolution and epsilon.
+// thinner than the grid perforates), naming the smallest usable resolution and epsilon, and where
+// the pull would end beyond epsilon.
 DerivedParameters derive_parameters(const TriangleSoup& input, const RemeshOptions& options);
 
 struct RemeshResult {
@@ -91,6 +104,10 @@ struct RemeshResult {
   CellLabels label;  // the one chosen
   std::vector<std::int64_t> facet_flow;
   CertificateReport certificate;
+  // Where the solid of `union_` departs from the labelling; all 0 in other modes.
+  LabellingDepartures departures;
+  std::vector<std::uint8_t> supported;  // per vertex of the surface: it follows the input
+  PullReport pull;
   TriangleSoup surface;  // in input units; as the reader of the file will see it
   SurfaceReport surface_report;
   std::int64_t dropped_components = 0;

@@ -1,6 +1,8 @@
 // Where the grid lines along one axis pass through triangles.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -24,6 +26,20 @@ class LineCrossings {
     std::size_t below = first_[line];
     while (below < first_[line + 1] && crossing_[below] < at) ++below;
     return ((below - first_[line]) & 1) != 0;
+  }
+
+  // How many grid points in [low, high) of the line are inside.
+  [[nodiscard]] std::int64_t count_inside(int low, int high, int j, int k) const {
+    const std::size_t line = line_number(j, k);
+    std::int64_t count = 0;
+    for (std::size_t n = first_[line]; n + 1 < first_[line + 1]; n += 2) {
+      const auto from =
+          std::max<std::int64_t>(low, static_cast<std::int64_t>(std::floor(crossing_[n])) + 1);
+      const auto to =
+          std::min<std::int64_t>(high - 1, static_cast<std::int64_t>(std::floor(crossing_[n + 1])));
+      count += std::max<std::int64_t>(0, to - from + 1);
+    }
+    return count;
   }
 
   // Whether there is a crossing in [low, high).

@@ -1,10 +1,12 @@
 #include "cellocut/measure/nearest_triangle.h"
 
 #include <embree3/rtcore.h>
+#include <tbb/parallel_sort.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <vector>
 
 #include "cellocut/base/errors.h"
@@ -66,6 +68,24 @@ struct NearestTriangle::Scene {
   Scene(const Scene&) = delete;
   Scene& operator=(const Scene&) = delete;
 
+  // The order of the corners and of the triangles is that of their coordinates: what is nearest, to
+  // the last bit, does not depend on the order in the file.
+  void sort_triangles() {
+    std::vector<std::uint32_t> order(face.size());
+    std::iota(order.begin(), order.end(), 0U);
+    tbb::parallel_sort(order.begin(), order.end(), [this](std::uint32_t a, std::uint32_t b) {
+      return corners[a] != corners[b] ? corners[a] < corners[b] : a < b;
+    });
+    std::vector<std::array<Point3, 3>> sorted_corners(order.size());
+    std::vector<std::uint32_t> sorted_face(order.size());
+    for (std::size_t i = 0; i < order.size(); ++i) {
+      sorted_corners[i] = corners[order[i]];
+      sorted_face[i] = face[order[i]];
+    }
+    corners = std::move(sorted_corners);
+    face = std::move(sorted_face);
+  }
+
   [[nodiscard]] Point3 to_scene(const Point3& p) const {
     return {(p[0] - centre[0]) / unit, (p[1] - centre[1]) / unit, (p[2] - centre[2]) / unit};
   }
@@ -126,9 +146,11 @@ NearestTriangle::Scene::Scene(const TriangleSoup& soup) {
       continue;
     }
     corners.push_back({soup.points[t[0]], soup.points[t[1]], soup.points[t[2]]});
+    std::sort(corners.back().begin(), corners.back().end());
     face.push_back(f);
   }
   if (corners.empty()) return;
+  sort_triangles();
   Box3 box{corners[0][0], corners[0][0]};
   for (const std::array<Point3, 3>& t : corners) {
     for (const Point3& p : t) {

@@ -15,15 +15,18 @@ Point3 nearest_on_triangle(const Point3& p, const Point3& a, const Point3& b, co
 
 struct NearestPoint {
   static constexpr std::uint32_t kNone = 0xFFFFFFFFU;
-  std::uint32_t face = kNone;  // the lowest among those at the same distance
-  Point3 point{};              // on that face, in the units of the soup
+  // Among those at the same distance the first by the coordinates of its corners; of equal ones the
+  // lowest index.
+  std::uint32_t face = kNone;
+  Point3 point{};  // on that face, in the units of the soup
   double distance = std::numeric_limits<double>::infinity();  // in the units of the soup
   [[nodiscard]] bool found() const { return face != kNone; }
 };
 
 // Embree's hierarchy of boxes finds the candidates, in single precision and with room for its
 // rounding; what decides among them is evaluated in doubles. So the answer is the minimum over all
-// triangles, whatever the order in which they are visited: the same bits for any number of threads.
+// triangles, whatever the order in which they are visited: the same bits for any number of threads,
+// and for another order of the faces or of their corners.
 class NearestTriangle {
  public:
   // Copies what it needs of the soup. Triangles with corners that are not finite are never nearest.

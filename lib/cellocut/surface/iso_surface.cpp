@@ -240,4 +240,9 @@ void to_input_units(TriangleSoup& surface, const Frame& frame) {
                     [&](std::size_t i) { surface.points[i] = frame.to_input(surface.points[i]); });
 }
 
+void to_index_coordinates(TriangleSoup& surface, const Frame& frame) {
+  tbb::parallel_for(std::size_t{0}, surface.points.size(),
+                    [&](std::size_t i) { surface.points[i] = frame.to_index(surface.points[i]); });
+}
+
 }  // namespace cellocut

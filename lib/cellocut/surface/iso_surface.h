@@ -77,5 +77,7 @@ TriangleSoup extract_iso_surface(const SparseField& field);
 
 // Index coordinates to input units, vertex by vertex, monotone per axis.
 void to_input_units(TriangleSoup& surface, const Frame& frame);
+// And back.
+void to_index_coordinates(TriangleSoup& surface, const Frame& frame);
 
 }  // namespace cellocut

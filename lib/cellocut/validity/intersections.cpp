@@ -12,41 +12,12 @@
 
 #include "cellocut/validity/box_tree.h"
 #include "cellocut/validity/face_filter.h"
+#include "cellocut/validity/float_frame.h"
 #include "cellocut/validity/triangle_pair.h"
 
 namespace cellocut {
 
 namespace {
-
-// Maps coordinates into [-1, 1] by x -> (x - centre) * scale. Each step is monotone also after
-// rounding, and so is the conversion to float: boxes that overlap before do so afterwards, and no
-// box needs to be widened. (Rounding may make boxes overlap that did not; the exact test sees to
-// those.)
-class Frame {
- public:
-  explicit Frame(const Box3& box) {
-    double extent = 0;
-    for (int axis = 0; axis < 3; ++axis) {
-      centre_[axis] = 0.5 * box.low[axis] + 0.5 * box.high[axis];
-      extent = std::fmax(extent, 0.5 * box.high[axis] - 0.5 * box.low[axis]);
-    }
-    scale_ = extent > 0 ? std::ldexp(1.0, std::min(1000, -std::ilogb(extent) - 1)) : 1.0;
-  }
-  [[nodiscard]] Point3 operator()(const Point3& p) const { return scale_ * (p - centre_); }
-
- private:
-  Point3 centre_{};
-  double scale_ = 1;
-};
-
-FloatBox box_of(const Point3& a, const Point3& b, const Point3& c) {
-  FloatBox box{};
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    box.low[axis] = static_cast<float>(std::min({a[axis], b[axis], c[axis]}));
-    box.high[axis] = static_cast<float>(std::max({a[axis], b[axis], c[axis]}));
-  }
-  return box;
-}
 
 // The plane of a face in frame coordinates: tells boxes that it surely does not cut.
 class FacePlane {
@@ -141,7 +112,7 @@ class Search {
     std::vector<FloatBox> boxes(triangles_.size());
     tbb::parallel_for(std::size_t{0}, faces_.size(), [&](std::size_t i) {
       const auto [a, b, c] = frame_corners(faces_[i]);
-      boxes[faces_[i]] = box_of(a, b, c);
+      boxes[faces_[i]] = float_box({a, b, c});
     });
     observer_.check();
     const auto classes = size_classes(faces_, boxes);
@@ -240,7 +211,7 @@ class Search {
   const std::vector<Point3>& points_;
   const std::vector<Triangle>& triangles_;
   std::vector<std::uint32_t> faces_;
-  Frame frame_;
+  FloatFrame frame_;
   std::size_t max_pairs_;
   Observer& observer_;
   tbb::enumerable_thread_specific<PairList> found_;

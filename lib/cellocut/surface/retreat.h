@@ -1,0 +1,34 @@
+// Moves the vertices of a valid surface as far as it stays valid.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "cellocut/base/observer.h"
+#include "cellocut/mesh/triangle_soup.h"
+
+namespace cellocut {
+
+struct Retreat {
+  // Six halvings are tried; kStayed: the vertex is where it was, for good.
+  static constexpr std::uint8_t kMostHalvings = 6;
+  static constexpr std::uint8_t kStayed = 7;
+
+  std::vector<Point3> points;
+  std::vector<std::uint8_t> halvings;  // per vertex: the displacement is 2^-halvings of that asked
+  std::int64_t pairs_at_first = 0;     // intersecting pairs with all displacements in full
+  int rounds = 0;
+};
+
+// Vertex v is moved from `from[v]` to `to[v]`. While exact intersecting or degenerate faces exist,
+// the displacement of their vertices is halved; after six halvings they and their neighbours are
+// put back for good. The mesh at `from` is valid (no intersecting pair, no degenerate face), every
+// round halves something or puts it back, and what is put back stays: so this ends, and with a
+// valid mesh. After the first round only faces that moved are tested again.
+//
+// Preconditions: the mesh is valid at `from`; from.size() == to.size(), all finite. The same for
+// any number of threads. O(n log n + rounds * faces that were bad). Errors: Cancelled.
+Retreat move_vertices(const std::vector<Point3>& from, const std::vector<Point3>& to,
+                      const std::vector<Triangle>& triangles, Observer& observer);
+
+}  // namespace cellocut

@@ -1,0 +1,42 @@
+// The field of `--surface union`: phi where the surface is supported, the cells that the cut
+// absorbed where it was completed.
+#pragma once
+
+#include "cellocut/base/observer.h"
+#include "cellocut/complex/tet_complex.h"
+#include "cellocut/energy/energy.h"
+#include "cellocut/field/frame.h"
+#include "cellocut/field/sparse_field.h"
+
+namespace cellocut {
+
+// Volumes in cubed input units, counted by grid points.
+struct LabellingDepartures {
+  double beyond = 0;    // solid in exterior cells: all of it in the slab phi < 0
+  double left_out = 0;  // not solid in interior cells: all of them with L* interior
+  // Of these were closed, being enclosed by the slab and absorbed cells.
+  std::int64_t pockets = 0;
+  double pocket_volume = 0;
+};
+
+struct UnionField {
+  SparseField field;  // negative inside, in grid steps; 1-Lipschitz in its band
+  LabellingDepartures departures;
+};
+
+// min(phi, signed distance to the absorbed region), where the absorbed region are the cells with L*
+// exterior that the cut made interior. A grid point is absorbed iff it lies in such a cell: decided
+// by the parity of the crossings of a grid line with the region's boundary, by exact predicates.
+//
+// What is neither in the slab nor absorbed is outside, and falls into components of grid points.
+// One stays open iff it holds a point beyond the hull or in an exterior cell; the others are
+// pockets between the slab and absorbed cells, in cells with L* interior alone, and are made
+// inside.
+//
+// `phi` is the thickening field in grid steps. O(stored values + tiles' faces + crossings log
+// crossings); the same bits for any number of threads. Errors: Cancelled.
+UnionField compute_union_field(const SparseField& phi, const TetComplex& complex,
+                               const CellLabels& initial, const CellLabels& label,
+                               const Frame& frame, Observer& observer);
+
+}  // namespace cellocut

@@ -1,0 +1,116 @@
+// Vertices move as far as the surface stays valid, and no further.
+#include "cellocut/surface/retreat.h"
+
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include "cellocut/validity/surface_report.h"
+#include "hand_made_field.h"
+#include "support/defective_meshes.h"
+#include "support/soup_operations.h"
+
+namespace cellocut::testing {
+namespace {
+
+Retreat move(const TriangleSoup& soup, const std::vector<Point3>& to) {
+  return move_vertices(soup.points, to, soup.triangles, silent_observer());
+}
+
+void expect_valid(const TriangleSoup& soup, const Retreat& moved) {
+  const SurfaceReport report = inspect_surface({moved.points, soup.triangles});
+  EXPECT_EQ(report.intersecting_pairs, 0);
+  EXPECT_EQ(report.degenerate_faces, 0);
+  EXPECT_TRUE(report.valid());
+}
+
+TEST(Retreat, WhatMeetsNothingArrives) {
+  const TriangleSoup soup = test::icosphere(3);
+  const std::vector<Point3> to = test::translated(test::scaled(soup, 3), {5, 0, 0}).points;
+  const Retreat moved = move(soup, to);
+  EXPECT_EQ(moved.points, to);
+  EXPECT_EQ(moved.rounds, 0);
+  EXPECT_EQ(moved.pairs_at_first, 0);
+}
+
+TEST(Retreat, WhatWouldBecomeAPointStopsHalfWay) {
+  const TriangleSoup soup = test::icosphere(2);
+  const Retreat moved = move(soup, std::vector<Point3>(soup.points.size(), Point3{0, 0, 0}));
+  expect_valid(soup, moved);
+  for (std::size_t v = 0; v < soup.points.size(); ++v) {
+    EXPECT_EQ(moved.halvings[v], 1);
+    EXPECT_EQ(moved.points[v], soup.points[v] + 0.5 * (Point3{0, 0, 0} - soup.points[v]));
+  }
+}
+
+TEST(Retreat, TwoSpheresThatWouldCrossStopBeforeThat) {
+  TriangleSoup soup = test::icosphere(3);
+  const std::size_t first = soup.points.size();
+  test::append(soup, test::icosphere(3, 1, {2.5, 0, 0}));
+  std::vector<Point3> to = soup.points;
+  for (std::size_t v = 0; v < first; ++v) to[v][0] += 1;  // 0.5 into the other one
+  const Retreat moved = move(soup, to);
+  expect_valid(soup, moved);
+  EXPECT_GT(moved.pairs_at_first, 0);
+  EXPECT_GT(moved.rounds, 0);
+  for (std::size_t v = 0; v < soup.points.size(); ++v) {
+    if (v >= first) {
+      EXPECT_EQ(moved.points[v], soup.points[v]) << "nothing was asked of the second sphere";
+    } else if (soup.points[v][0] < -0.5) {
+      EXPECT_EQ(moved.points[v], to[v]) << "the far side is in nobody's way";
+    }
+  }
+}
+
+// A plate just above another, one vertex of which is to go through it by far more than 64 times
+// their distance.
+TEST(Retreat, WhatSixHalvingsDoNotCureGoesBackWithItsNeighbours) {
+  TriangleSoup soup = test::box({0, 0, 0}, {4, 4, 1});
+  const auto below = static_cast<std::uint32_t>(soup.points.size());
+  test::append(soup, test::box({1, 1, -1}, {2, 2, -1e-4}));
+  std::vector<Point3> to = soup.points;
+  std::size_t raised = 0;  // the top corner of the lower box nearest to (1, 1)
+  for (std::size_t v = below; v < soup.points.size(); ++v) {
+    if (soup.points[v] == Point3{1, 1, -1e-4}) raised = v;
+  }
+  ASSERT_NE(raised, 0U);
+  to[raised][2] += 0.5;
+  const Retreat moved = move(soup, to);
+  expect_valid(soup, moved);
+  EXPECT_EQ(moved.points, soup.points);
+  EXPECT_EQ(moved.halvings[raised], Retreat::kStayed);
+  EXPECT_EQ(moved.rounds, Retreat::kMostHalvings + 1);
+}
+
+TEST(Retreat, AnyDisplacementEndsValidAndTheSameForAnyNumberOfThreads) {
+  const TriangleSoup soup = test::icosphere(3);
+  for (const double size : {0.02, 0.2, 1.0}) {
+    std::mt19937_64 random(11);
+    std::vector<Point3> to = soup.points;
+    for (Point3& p : to) {
+      for (double& x : p) x += uniform(random, -size, size);
+    }
+    std::vector<Retreat> results;
+    for (const std::size_t threads : {1, 2, 4}) {
+      const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+      results.push_back(move(soup, to));
+    }
+    expect_valid(soup, results[0]);
+    EXPECT_EQ(results[1].points, results[0].points);
+    EXPECT_EQ(results[2].points, results[0].points);
+    EXPECT_EQ(results[2].halvings, results[0].halvings);
+  }
+}
+
+TEST(Retreat, StopsWhenAskedTo) {
+  class Stop : public Observer {
+    [[nodiscard]] bool cancelled() const override { return true; }
+  };
+  Stop stop;
+  const TriangleSoup soup = test::icosphere(2);
+  EXPECT_THROW(move_vertices(soup.points, std::vector<Point3>(soup.points.size(), Point3{0, 0, 0}),
+                             soup.triangles, stop),
+               Cancelled);
+}
+
+}  // namespace
+}  // namespace cellocut::testing

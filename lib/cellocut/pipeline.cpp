@@ -195,6 +195,7 @@ RemeshResult remesh(const TriangleSoup& input, const RemeshOptions& options,
   if (options.pulls()) {
     result.pull = stage("pull", [&] {
       return pull_to_input(result.surface, result.supported, NearestTriangle(input),
+                           result.derived.epsilon * result.frame.unit,
                            result.derived.pull_distance * result.frame.unit, observer);
     });
   }

@@ -16,8 +16,8 @@ class DefectiveMesh : public ::testing::TestWithParam<test::NamedSoup> {};
 TEST_P(DefectiveMesh, BecomesAValidSolidOnEveryBackendAndSolver) {
   for (const Variant<Tetrahedralizer>& backend : backends::registered()) {
     if (backend.make == nullptr) continue;
-    for (const SurfaceMode mode : {SurfaceMode::sdf, SurfaceMode::cells}) {
-      SCOPED_TRACE(backend.name + (mode == SurfaceMode::sdf ? " sdf" : " cells"));
+    for (const SurfaceMode mode : {SurfaceMode::union_, SurfaceMode::sdf, SurfaceMode::cells}) {
+      SCOPED_TRACE(backend.name + " " + std::to_string(static_cast<int>(mode)));
       const RemeshResult bk = run(GetParam().soup, at_resolution(64, mode), backend.name, "bk");
       const RemeshResult other =
           run(GetParam().soup, at_resolution(64, mode), backend.name, "push_relabel");
@@ -54,8 +54,8 @@ INSTANTIATE_TEST_SUITE_P(Pipeline, DefectiveMesh, ::testing::ValuesIn(test::all_
 
 // ---- known topology
 
-SurfaceReport surface_of(const TriangleSoup& soup, int resolution = 64) {
-  const RemeshResult result = run(soup, at_resolution(resolution));
+SurfaceReport surface_of(const TriangleSoup& soup, SurfaceMode mode = SurfaceMode::union_) {
+  const RemeshResult result = run(soup, at_resolution(64, mode));
   expect_sound(result);
   return result.surface_report;
 }
@@ -73,27 +73,37 @@ TEST(Topology, AMoebiusStripIsASolidTorus) {
 }
 
 TEST(Topology, NestedSpheresAreOneBall) {
-  const SurfaceReport report = surface_of(test::nested_spheres());
-  EXPECT_EQ(report.components.size(), 1U);
-  EXPECT_EQ(report.euler, 2);
-  const double radius = 1 + 2.0 / 64;
-  EXPECT_NEAR(report.volume, 4.0 / 3 * M_PI * radius * radius * radius, 0.15);
+  for (const SurfaceMode mode : {SurfaceMode::union_, SurfaceMode::sdf}) {
+    const SurfaceReport report = surface_of(test::nested_spheres(), mode);
+    EXPECT_EQ(report.components.size(), 1U);
+    EXPECT_EQ(report.euler, 2);
+    // The spheres are polyhedra of 320 faces; only the pull takes the dilation back.
+    const double radius = mode == SurfaceMode::union_ ? 1 : 1 + 2.0 / 64;
+    EXPECT_NEAR(report.volume, 4.0 / 3 * M_PI * radius * radius * radius, 0.15);
+  }
 }
 
 TEST(Topology, ABoxOfFlippedFacesIsABox) {
-  const SurfaceReport report = surface_of(test::flipped_faces());
-  EXPECT_EQ(report.components.size(), 1U);
-  EXPECT_EQ(report.euler, 2);
-  const double dilated = (1 + 2.0 / 64) * (0.8 + 2.0 / 64) * (0.6 + 2.0 / 64);
-  EXPECT_NEAR(report.volume, dilated, 0.02);
+  for (const SurfaceMode mode : {SurfaceMode::union_, SurfaceMode::sdf}) {
+    const SurfaceReport report = surface_of(test::flipped_faces(), mode);
+    EXPECT_EQ(report.components.size(), 1U);
+    EXPECT_EQ(report.euler, 2);
+    const double dilation = mode == SurfaceMode::union_ ? 2.0 / 64 / 40 : 2.0 / 64;
+    EXPECT_NEAR(report.volume, (1 + dilation) * (0.8 + dilation) * (0.6 + dilation),
+                mode == SurfaceMode::union_ ? 0.002 : 0.02);
+  }
 }
 
 // The signed distance of the interface frays where thin cells lie along flat faces (the paper's
-// extraction does), so slivers may come off; all but a thousandth of the solid is one piece.
-TEST(Topology, CrossingBoxesAreOneSolidButForSlivers) {
-  const SurfaceReport report = surface_of(test::two_crossing_boxes());
-  ASSERT_FALSE(report.components.empty());
-  EXPECT_GT(report.components.front().volume, 0.999 * report.volume);
+// extraction does), so slivers may come off; all but a thousandth of the solid is one piece. The
+// union does not fray.
+TEST(Topology, CrossingBoxesAreOneSolid) {
+  const SurfaceReport frayed = surface_of(test::two_crossing_boxes(), SurfaceMode::sdf);
+  ASSERT_FALSE(frayed.components.empty());
+  EXPECT_GT(frayed.components.front().volume, 0.999 * frayed.volume);
+  const SurfaceReport whole = surface_of(test::two_crossing_boxes());
+  EXPECT_EQ(whole.components.size(), 1U);
+  EXPECT_EQ(whole.euler, 2);
 }
 
 // The hole is 0.87 wide in area, the inner area 11.6: filled below lambda = 13, a shell above.
@@ -132,7 +142,7 @@ TEST(Topology, AnOpenBowlIsFilledWhereTheLidIsCheap) {
 
 TEST(Pipeline, AnEmptySolidIsAResult) {
   // Without anchors nothing is worth its surface.
-  RemeshOptions options = at_resolution(32);
+  RemeshOptions options = at_resolution(32, SurfaceMode::sdf);
   options.unary = false;
   const RemeshResult result = run(test::box({0, 0, 0}, {1, 1, 1}), options);
   EXPECT_TRUE(result.empty_solid());
@@ -142,7 +152,7 @@ TEST(Pipeline, AnEmptySolidIsAResult) {
 }
 
 TEST(Pipeline, WithoutThickeningASolidKeepsItsVolume) {
-  RemeshOptions options = at_resolution(64);
+  RemeshOptions options = at_resolution(64, SurfaceMode::sdf);
   options.thickening = false;
   const RemeshResult result = run(test::icosphere(3), options);
   expect_sound(result);

@@ -16,7 +16,7 @@ inline RemeshResult run(const TriangleSoup& input, const RemeshOptions& options,
   return remesh(input, options, *backends::make(backend), *solvers::make(solver));
 }
 
-inline RemeshOptions at_resolution(int resolution, SurfaceMode surface = SurfaceMode::sdf) {
+inline RemeshOptions at_resolution(int resolution, SurfaceMode surface = SurfaceMode::union_) {
   RemeshOptions options;
   options.resolution = resolution;
   options.surface = surface;

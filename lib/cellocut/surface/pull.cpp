@@ -19,7 +19,8 @@ Quantiles quantiles_of(std::vector<double> values) {
 }
 
 PullReport pull_to_input(TriangleSoup& surface, const std::vector<std::uint8_t>& supported,
-                         const NearestTriangle& input, double distance, Observer& observer) {
+                         const NearestTriangle& input, double expected, double distance,
+                         Observer& observer) {
   const std::size_t count = surface.points.size();
   PullReport report;
   report.distance = distance;
@@ -30,7 +31,8 @@ PullReport pull_to_input(TriangleSoup& surface, const std::vector<std::uint8_t>&
   tbb::parallel_for(std::size_t{0}, count, [&](std::size_t v) {
     if (supported[v] == 0) return;
     const Point3& from = surface.points[v];
-    const NearestPoint nearest = input(from);
+    NearestPoint nearest = input(from, 1.25 * expected);
+    if (!nearest.found()) nearest = input(from);
     offset[v] = nearest.distance;
     if (!(nearest.distance > distance)) return;
     to[v] = nearest.point + (distance / nearest.distance) * (from - nearest.point);

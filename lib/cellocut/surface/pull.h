@@ -32,8 +32,10 @@ struct PullReport {
 // Moves every supported vertex of `surface` (input units) towards its nearest point on the input
 // until `distance` is left; those nearer than that stay. Each side of a sheet keeps to its own side
 // of it, as no vertex passes its nearest point. Vertices retreat (retreat.h) where the surface
-// would not stay valid. Precondition: the surface is valid. O(n log n). Errors: Cancelled.
+// would not stay valid. `expected` is how far supported vertices are from the input, about (the
+// search begins there). Precondition: the surface is valid. O(n log n). Errors: Cancelled.
 PullReport pull_to_input(TriangleSoup& surface, const std::vector<std::uint8_t>& supported,
-                         const NearestTriangle& input, double distance, Observer& observer);
+                         const NearestTriangle& input, double expected, double distance,
+                         Observer& observer);
 
 }  // namespace cellocut

@@ -75,6 +75,12 @@ void store(FieldLeaf& leaf, std::uint32_t offset, float value) {
   }
 }
 
+// The blocks that hold the combined field, and their first points.
+struct Blocks {
+  std::vector<openvdb::Coord> low;
+  std::vector<LeafPointer> leaves;
+};
+
 // min(phi, signed distance to the region) in one block.
 LeafPointer combine(const openvdb::Coord& low, const FieldTree& phi, const FieldLeaf* distance,
                     const CellRegion& absorbed) {
@@ -90,56 +96,51 @@ LeafPointer combine(const openvdb::Coord& low, const FieldTree& phi, const Field
   return leaf;
 }
 
-}  // namespace
-
-UnionField compute_union_field(const SparseField& phi, const TetComplex& complex,
-                               const CellLabels& initial, const CellLabels& label,
-                               const Frame& frame, Observer& observer) {
-  const FieldTree& phi_tree = phi.grid().tree;
-  const CellRegion absorbed(complex, absorbed_cells(initial, label), frame);
-  const CellRegion interior(complex, label, frame);
+// min(phi, signed distance to the absorbed region) wherever it is within the band.
+Blocks combine(const FieldTree& phi, const CellRegion& absorbed, const Frame& frame,
+               Observer& observer) {
   Band band;
   if (!absorbed.boundary().empty()) {
     const TriangleSet set = make_triangle_set(absorbed.boundary(), frame);
     band = find_band(set.triangles, frame.extent, 0.0, observer);
   }
+  Blocks blocks;
+  blocks.low = merge_blocks(phi, band.leaves);
+  blocks.leaves.resize(blocks.low.size());
   FieldTree distance(kBand);
-  const std::vector<openvdb::Coord> blocks = merge_blocks(phi_tree, band.leaves);
   for (LeafPointer& leaf : band.leaves) distance.addLeaf(leaf.release());
-  std::vector<LeafPointer> leaves(blocks.size());
-  tbb::parallel_for(std::size_t{0}, blocks.size(), [&](std::size_t n) {
-    leaves[n] = combine(blocks[n], phi_tree, distance.probeConstLeaf(blocks[n]), absorbed);
+  tbb::parallel_for(std::size_t{0}, blocks.low.size(), [&](std::size_t n) {
+    const openvdb::Coord& low = blocks.low[n];
+    blocks.leaves[n] = combine(low, phi, distance.probeConstLeaf(low), absorbed);
   });
-  distance.clear();
   observer.check();
+  return blocks;
+}
 
-  // Between the blocks neither field changes its sign.
-  const auto tile_inside = [&](const Tile& tile) {
-    return phi_tree.getValue(tile.low) < 0 || absorbed.contains(tile.low);
-  };
-  GridComponents outside(blocks, tiles_between(blocks, frame.extent));
-  outside.join(
-      [&](std::size_t leaf, std::uint32_t offset) { return leaves[leaf]->getValue(offset) > 0; },
-      [&](const Tile& tile) { return !tile_inside(tile); },
-      [](const openvdb::Coord&, int) { return true; }, observer);
+constexpr std::int64_t points_of(const Tile& tile) {
+  return std::int64_t{tile.edge} * tile.edge * tile.edge;
+}
 
-  // Which components hold a point that is not in an interior cell, and how the solid departs from
-  // the cells.
-  const std::vector<Tile>& tiles = outside.tiles();
-  std::vector<std::int64_t> tile_interior(tiles.size());
-  tbb::parallel_for(std::size_t{0}, tiles.size(),
-                    [&](std::size_t n) { tile_interior[n] = interior.count(tiles[n]); });
-  struct LeafCounts {
-    std::int64_t beyond = 0;    // solid, not in an interior cell
-    std::int64_t left_out = 0;  // not solid, in an interior cell
+// The parts outside against the cells.
+struct Comparison {
+  std::vector<std::uint8_t> open;  // by component: holds a point that is in no interior cell
+  std::int64_t beyond = 0;         // points of the solid in no interior cell
+  std::int64_t left_out = 0;       // points outside in an interior cell
+};
+
+Comparison compare_with_cells(const Blocks& blocks, const GridComponents& outside,
+                              const CellRegion& interior) {
+  struct Counts {
+    std::int64_t beyond = 0;
+    std::int64_t left_out = 0;
     std::vector<std::uint32_t> open;
   };
-  std::vector<LeafCounts> counts(blocks.size());
-  tbb::parallel_for(std::size_t{0}, blocks.size(), [&](std::size_t leaf) {
-    LeafCounts& count = counts[leaf];
+  std::vector<Counts> counts(blocks.low.size());
+  tbb::parallel_for(std::size_t{0}, blocks.low.size(), [&](std::size_t block) {
+    Counts& count = counts[block];
     for (std::uint32_t n = 0; n < FieldLeaf::SIZE; ++n) {
-      const bool in_cell = interior.contains(blocks[leaf] + FieldLeaf::offsetToLocalCoord(n));
-      const std::uint32_t component = outside.of_point(leaf, n);
+      const bool in_cell = interior.contains(blocks.low[block] + FieldLeaf::offsetToLocalCoord(n));
+      const std::uint32_t component = outside.of_point(block, n);
       if (component == GridComponents::kNone) {
         count.beyond += in_cell ? 0 : 1;
       } else if (in_cell) {
@@ -149,56 +150,83 @@ UnionField compute_union_field(const SparseField& phi, const TetComplex& complex
       }
     }
   });
-  std::vector<std::uint8_t> open(outside.node_count(), 0);
-  std::int64_t beyond = 0;
-  std::int64_t left_out = 0;
-  for (const LeafCounts& count : counts) {
-    beyond += count.beyond;
-    left_out += count.left_out;
-    for (const std::uint32_t component : count.open) open[component] = 1;
+  const std::vector<Tile>& tiles = outside.tiles();
+  std::vector<std::int64_t> in_cells(tiles.size());
+  tbb::parallel_for(std::size_t{0}, tiles.size(),
+                    [&](std::size_t n) { in_cells[n] = interior.count(tiles[n]); });
+
+  Comparison result;
+  result.open.assign(outside.node_count(), 0);
+  for (const Counts& count : counts) {
+    result.beyond += count.beyond;
+    result.left_out += count.left_out;
+    for (const std::uint32_t component : count.open) result.open[component] = 1;
   }
   for (std::size_t n = 0; n < tiles.size(); ++n) {
-    const std::int64_t points = std::int64_t{tiles[n].edge} * tiles[n].edge * tiles[n].edge;
     const std::uint32_t component = outside.of_tile(n);
     if (component == GridComponents::kNone) {
-      beyond += points - tile_interior[n];
+      result.beyond += points_of(tiles[n]) - in_cells[n];
     } else {
-      left_out += tile_interior[n];
-      if (tile_interior[n] < points) open[component] = 1;
+      result.left_out += in_cells[n];
+      if (in_cells[n] < points_of(tiles[n])) result.open[component] = 1;
     }
   }
+  return result;
+}
 
-  // Close the others.
-  UnionField result;
-  std::vector<std::int64_t> pocket_points(blocks.size(), 0);
-  const auto is_pocket = [&](std::uint32_t component) {
-    return component != GridComponents::kNone && open[component] == 0;
+}  // namespace
+
+UnionField compute_union_field(const SparseField& phi, const TetComplex& complex,
+                               const CellLabels& initial, const CellLabels& label,
+                               const Frame& frame, Observer& observer) {
+  const FieldTree& phi_tree = phi.grid().tree;
+  const CellRegion absorbed(complex, absorbed_cells(initial, label), frame);
+  const CellRegion interior(complex, label, frame);
+  Blocks blocks = combine(phi_tree, absorbed, frame, observer);
+
+  // Between the blocks neither field changes its sign.
+  const auto is_solid = [&](const Tile& tile) {
+    return phi_tree.getValue(tile.low) < 0 || absorbed.contains(tile.low);
   };
-  tbb::parallel_for(std::size_t{0}, blocks.size(), [&](std::size_t leaf) {
+  GridComponents outside(blocks.low, tiles_between(blocks.low, frame.extent));
+  outside.join(
+      [&](std::size_t n, std::uint32_t offset) { return blocks.leaves[n]->getValue(offset) > 0; },
+      [&](const Tile& tile) { return !is_solid(tile); },
+      [](const openvdb::Coord&, int) { return true; }, observer);
+  const Comparison cells = compare_with_cells(blocks, outside, interior);
+  const auto is_pocket = [&](std::uint32_t component) {
+    return component != GridComponents::kNone && cells.open[component] == 0;
+  };
+
+  // Close the pockets.
+  std::vector<std::int64_t> closed(blocks.low.size(), 0);
+  tbb::parallel_for(std::size_t{0}, blocks.low.size(), [&](std::size_t block) {
+    FieldLeaf& leaf = *blocks.leaves[block];
     for (std::uint32_t n = 0; n < FieldLeaf::SIZE; ++n) {
-      if (!is_pocket(outside.of_point(leaf, n))) continue;
-      store(*leaves[leaf], n, -leaves[leaf]->getValue(n));
-      ++pocket_points[leaf];
+      if (!is_pocket(outside.of_point(block, n))) continue;
+      store(leaf, n, -leaf.getValue(n));
+      ++closed[block];
     }
   });
-  std::int64_t closed_points =
-      std::accumulate(pocket_points.begin(), pocket_points.end(), std::int64_t{0});
+  std::int64_t pocket_points = std::accumulate(closed.begin(), closed.end(), std::int64_t{0});
   auto grid = std::make_shared<SparseField::Grid>();
-  for (std::size_t n = 0; n < tiles.size(); ++n) {
-    if (tile_inside(tiles[n])) add_inside_tile(grid->tree, tiles[n]);
-    if (!is_pocket(outside.of_tile(n))) continue;
-    add_inside_tile(grid->tree, tiles[n]);
-    closed_points += std::int64_t{tiles[n].edge} * tiles[n].edge * tiles[n].edge;
+  for (std::size_t n = 0; n < outside.tiles().size(); ++n) {
+    const Tile& tile = outside.tiles()[n];
+    const bool pocket = is_pocket(outside.of_tile(n));
+    if (pocket) pocket_points += points_of(tile);
+    if (pocket || is_solid(tile)) add_inside_tile(grid->tree, tile);
   }
-  for (LeafPointer& leaf : leaves) grid->tree.addLeaf(leaf.release());
+  for (LeafPointer& leaf : blocks.leaves) grid->tree.addLeaf(leaf.release());
+
+  UnionField result;
+  result.field = SparseField(std::move(grid));
+  const double volume = frame.spacing * frame.spacing * frame.spacing;
+  result.departures.beyond = static_cast<double>(cells.beyond) * volume;
+  result.departures.left_out = static_cast<double>(cells.left_out - pocket_points) * volume;
+  result.departures.pocket_volume = static_cast<double>(pocket_points) * volume;
   for (std::uint32_t node = 0; node < outside.node_count(); ++node) {
     if (outside.names_component(node) && is_pocket(node)) ++result.departures.pockets;
   }
-  const double volume = frame.spacing * frame.spacing * frame.spacing;
-  result.field = SparseField(std::move(grid));
-  result.departures.beyond = static_cast<double>(beyond) * volume;
-  result.departures.left_out = static_cast<double>(left_out - closed_points) * volume;
-  result.departures.pocket_volume = static_cast<double>(closed_points) * volume;
   return result;
 }
 

@@ -35,6 +35,7 @@ struct DistanceSummary {
   double median = 0;  // quantiles interpolate linearly between neighbours in order
   double p95 = 0;     // the 95th percentile
   double largest = 0;
+  bool operator==(const DistanceSummary&) const = default;
 };
 
 // One kind of measure. What a reference does not allow is absent: a point cloud has no surface to
@@ -47,17 +48,20 @@ struct Agreement {
   // HD: the larger of the two largest.
   std::optional<double> hausdorff;
   // ANC, 0 to 1: the absolute cosine between the normals at a sample and at its nearest point, mean
-  // over the samples with two normals, both ways averaged.
+  // over the samples with two normals, both ways averaged. To a surface the normal is that of the
+  // face; where the nearest point is on an edge or a corner, rounding decides between its faces.
   std::optional<double> normal_consistency;
   // F1 in percent, one for each threshold (empty: absent): the harmonic mean of the shares of
   // samples, each way, that lie nearer than the threshold (Knapitsch et al., Tanks and Temples,
   // 2017).
   std::vector<double> f1;
+  bool operator==(const Agreement&) const = default;
 };
 
 struct Evaluation {
   Agreement sampled;
   Agreement to_surface;
+  bool operator==(const Evaluation&) const = default;
 };
 
 // Holds a reference and what is searched in it, for any number of meshes. The same bits for any

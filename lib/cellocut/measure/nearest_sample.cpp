@@ -1,18 +1,13 @@
 #include "cellocut/measure/nearest_sample.h"
 
-#include <embree3/rtcore.h>
-
 #include <algorithm>
 #include <cmath>
 
-#include "cellocut/base/errors.h"
+#include "cellocut/measure/embree_scene.h"
 
 namespace cellocut {
 
 namespace {
-
-// Single precision in the hierarchy: relative to the coordinates, a few units in the last place.
-constexpr double kRounding = 1e-6;
 
 Box3 box_of(const std::vector<Point3>& points) {
   Box3 box{points[0], points[0]};
@@ -27,44 +22,27 @@ Box3 box_of(const std::vector<Point3>& points) {
 
 }  // namespace
 
-// Embree sees coordinates shifted and scaled so that the points' box lies in [-1/2, 1/2]^3.
 struct NearestSample::Scene {
   std::vector<Point3> points;
-  Point3 centre{};
-  double unit = 1;
-  RTCDevice device = nullptr;
-  RTCScene scene = nullptr;
+  EmbreeFrame frame;
+  EmbreeScene embree;
 
-  explicit Scene(std::vector<Point3> given);
-  ~Scene() { release(); }
-  Scene(const Scene&) = delete;
-  Scene& operator=(const Scene&) = delete;
-
-  void release() {
-    if (scene != nullptr) rtcReleaseScene(scene);
-    if (device != nullptr) rtcReleaseDevice(device);
-  }
-
-  [[nodiscard]] Point3 to_scene(const Point3& p) const {
-    return {(p[0] - centre[0]) / unit, (p[1] - centre[1]) / unit, (p[2] - centre[2]) / unit};
+  explicit Scene(std::vector<Point3> given) : points(std::move(given)) {
+    if (points.empty()) return;
+    frame = EmbreeFrame(box_of(points));
+    embree.build(points.size(), this, bounds, visit);
   }
 
   static void bounds(const RTCBoundsFunctionArguments* arguments) {
     const auto* self = static_cast<const Scene*>(arguments->geometryUserPtr);
-    const Point3 p = self->to_scene(self->points[arguments->primID]);
-    RTCBounds& box = *arguments->bounds_o;
-    box.lower_x = static_cast<float>(p[0] - kRounding);
-    box.lower_y = static_cast<float>(p[1] - kRounding);
-    box.lower_z = static_cast<float>(p[2] - kRounding);
-    box.upper_x = static_cast<float>(p[0] + kRounding);
-    box.upper_y = static_cast<float>(p[1] + kRounding);
-    box.upper_z = static_cast<float>(p[2] + kRounding);
+    const Point3 p = self->frame(self->points[arguments->primID]);
+    set_embree_bounds(*arguments->bounds_o, {p, p});
   }
 
   struct Query {
     const Scene* scene;
     Point3 p;      // in the units of the points
-    double slack;  // in the scene's, for the rounding of p
+    double slack;  // in the frame
     double squared = std::numeric_limits<double>::infinity();
     std::uint32_t index = kNone;
   };
@@ -77,38 +55,12 @@ struct NearestSample::Scene {
     query.index = index;
     if (squared == query.squared) return false;
     query.squared = squared;
-    const double radius = std::sqrt(squared) / query.scene->unit * (1 + kRounding) + query.slack;
+    const double radius =
+        std::sqrt(squared) / query.scene->frame.unit * (1 + kEmbreeRounding) + query.slack;
     arguments->query->radius = std::min(arguments->query->radius, static_cast<float>(radius));
     return true;
   }
 };
-
-NearestSample::Scene::Scene(std::vector<Point3> given) : points(std::move(given)) {
-  if (points.empty()) return;
-  const Box3 box = box_of(points);
-  centre = 0.5 * (box.low + box.high);
-  unit = box.longest_edge() > 0 ? box.longest_edge() : 1.0;
-
-  device = rtcNewDevice(nullptr);
-  if (device == nullptr) throw Error("Embree cannot be started");
-  scene = rtcNewScene(device);
-  rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
-  RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);
-  rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(points.size()));
-  rtcSetGeometryUserData(geometry, this);
-  rtcSetGeometryBoundsFunction(
-      geometry, [](const RTCBoundsFunctionArguments* arguments) { bounds(arguments); }, nullptr);
-  rtcSetGeometryPointQueryFunction(
-      geometry, [](RTCPointQueryFunctionArguments* arguments) { return visit(arguments); });
-  rtcCommitGeometry(geometry);
-  rtcAttachGeometry(scene, geometry);
-  rtcReleaseGeometry(geometry);
-  rtcCommitScene(scene);
-  if (rtcGetDeviceError(device) != RTC_ERROR_NONE) {
-    release();
-    throw LimitError("Embree cannot build its hierarchy: out of memory");
-  }
-}
 
 NearestSample::NearestSample(std::vector<Point3> points)
     : scene_(std::make_unique<Scene>(std::move(points))) {}
@@ -117,17 +69,9 @@ NearestSample::NearestSample(NearestSample&&) noexcept = default;
 NearestSample& NearestSample::operator=(NearestSample&&) noexcept = default;
 
 NearestSample::Result NearestSample::operator()(const Point3& p) const {
-  const Scene& s = *scene_;
-  if (s.scene == nullptr) return {};
-  const Point3 q = s.to_scene(p);
-  const double size = std::max({std::fabs(q[0]), std::fabs(q[1]), std::fabs(q[2]), 1.0});
-  Scene::Query query{.scene = &s, .p = p, .slack = kRounding * size};
-  RTCPointQuery embree_query{static_cast<float>(q[0]), static_cast<float>(q[1]),
-                             static_cast<float>(q[2]), 0.0F,
-                             std::numeric_limits<float>::infinity()};
-  RTCPointQueryContext context;
-  rtcInitPointQueryContext(&context);
-  rtcPointQuery(s.scene, &embree_query, &context, nullptr, &query);
+  const Point3 q = scene_->frame(p);
+  Scene::Query query{.scene = scene_.get(), .p = p, .slack = embree_slack(q)};
+  scene_->embree.query(q, std::numeric_limits<float>::infinity(), &query);
   return {query.index, std::sqrt(query.squared)};
 }
 

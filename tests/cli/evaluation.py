@@ -98,7 +98,8 @@ class Evaluate(ProgramCase):
             self.assertIsNone(mesh["f1"][0]["f1_p2s"])
             self.assertIsNone(mesh["distances"]["to_reference_p2s"])
             self.assertAlmostEqual(mesh["distances"]["from_reference_p2s"]["relative"]["max"], 0.25)
-        text = self.succeed("evaluate", "high.obj", "--reference", "bare.ply").stdout.decode()
+        text = self.succeed("evaluate", "high.obj", "--reference", "bare.ply", "--samples",
+                            "100").stdout.decode()
         self.assertIn("81 points, without normals", text)
         self.assertIn("to reference (points)", text)
 
@@ -115,13 +116,14 @@ class Evaluate(ProgramCase):
 
     def test_standard_input_and_quiet(self):
         run = self.succeed("evaluate", "-", "--format", "obj", "--reference", "low.obj", "--quiet",
-                           "--json", "r.json", input=self.get("high.obj"))
+                           "--samples", "100", "--json", "r.json", input=self.get("high.obj"))
         self.assertEqual(run.stdout, b"")
         self.assertEqual(json.loads(self.get("r.json"))["meshes"][0]["path"], "-")
 
     def refuse(self, code, pattern, *arguments):
-        self.fail_with(code, r"\Acellocut: " + pattern, "evaluate", *arguments, "--json", "out.json",
-                       outputs=("out.json",))
+        few = () if "--samples" in arguments else ("--samples", "100")
+        self.fail_with(code, r"\Acellocut: " + pattern, "evaluate", *arguments, *few, "--json",
+                       "out.json", outputs=("out.json",))
 
     def test_wrong_files(self):
         self.put("flat.obj", obj_text(([(0.0, 0.0, 0.0)] * 3, [(0, 1, 2)])))

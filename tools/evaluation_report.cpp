@@ -110,13 +110,14 @@ std::string count_table(const EvaluationReport& report) {
 
 std::string reference_line(const EvaluatedReference& reference) {
   if (!reference.surface) {
-    return fmt::format("reference {}: {} points, {} normals; longest edge {:.6g}\n", reference.path,
-                       reference.points, reference.normals ? "with" : "without", reference.unit);
+    return fmt::format("reference {}: {} points, {} normals; longest edge of its box {:.6g}\n",
+                       reference.path, reference.points, reference.normals ? "with" : "without",
+                       reference.unit);
   }
   const SurfaceReport& surface = *reference.surface;
   return fmt::format(
-      "reference {}: {} triangles, {} components, volume {:.6g}, area {:.6g}; longest edge "
-      "{:.6g}\n",
+      "reference {}: {} triangles, {} components, volume {:.6g}, area {:.6g}; longest edge of "
+      "its box {:.6g}\n",
       reference.path, surface.triangles, surface.components.size(), surface.volume, surface.area,
       reference.unit);
 }

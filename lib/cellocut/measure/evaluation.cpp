@@ -84,8 +84,7 @@ struct Shape {
         nearest_sample(samples.points),
         surface(relative),
         face_normals(unit_normals(relative)) {}
-  explicit Shape(Samples points)
-      : samples(std::move(points)), nearest_sample(samples.points), surface() {}
+  explicit Shape(Samples points) : samples(std::move(points)), nearest_sample(samples.points) {}
 };
 
 Samples relative_samples(const PointCloud& cloud, const RelativeFrame& frame) {

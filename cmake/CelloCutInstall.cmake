@@ -8,7 +8,8 @@ set(_cellocut_entry_headers solvers/solvers.h solvers/comparison.h cellocut/cut/
 if(NOT CELLOCUT_SOLVERS_ONLY)
   list(APPEND _cellocut_entry_headers
     cellocut/pipeline.h cellocut/base/atomic_file.h cellocut/base/predicates.h
-    cellocut/energy/certificate.h cellocut/mesh/mesh_file.h cellocut/validity/surface_report.h
+    cellocut/energy/certificate.h cellocut/measure/evaluation.h cellocut/mesh/mesh_file.h
+    cellocut/validity/surface_report.h
     backends/backends.h)
   if(CELLOCUT_WITH_VIZ)
     list(APPEND _cellocut_entry_headers viz/vtu_file.h viz/section.h)

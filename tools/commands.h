@@ -23,5 +23,6 @@ Command add_list(CLI::App& program);
 Command add_section(CLI::App& program);
 Command add_solve(CLI::App& program);
 Command add_compare(CLI::App& program);
+Command add_evaluate(CLI::App& program);
 
 }  // namespace cellocut::tools

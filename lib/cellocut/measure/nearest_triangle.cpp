@@ -1,6 +1,5 @@
 #include "cellocut/measure/nearest_triangle.h"
 
-#include <embree3/rtcore.h>
 #include <tbb/parallel_sort.h>
 
 #include <algorithm>
@@ -9,14 +8,11 @@
 #include <numeric>
 #include <vector>
 
-#include "cellocut/base/errors.h"
+#include "cellocut/measure/embree_scene.h"
 
 namespace cellocut {
 
 namespace {
-
-// Single precision in the hierarchy: relative to the coordinates, a few units in the last place.
-constexpr double kRounding = 1e-6;
 
 Point3 nearest_on_segment(const Point3& p, const Point3& a, const Point3& b) {
   const Point3 edge = b - a;
@@ -51,22 +47,14 @@ Point3 nearest_on_triangle(const Point3& p, const Point3& a, const Point3& b, co
   return best;
 }
 
-// Coordinates are shifted and scaled so that the soup's box lies in [-1/2, 1/2]^3.
+// Corners are in the coordinates of the frame.
 struct NearestTriangle::Scene {
   std::vector<std::array<Point3, 3>> corners;
   std::vector<std::uint32_t> face;  // corners[i] are those of this face of the soup
-  Point3 centre{};
-  double unit = 1;
-  RTCDevice device = nullptr;
-  RTCScene scene = nullptr;
+  EmbreeFrame frame;
+  EmbreeScene embree;
 
   explicit Scene(const TriangleSoup& soup);
-  ~Scene() {
-    if (scene != nullptr) rtcReleaseScene(scene);
-    if (device != nullptr) rtcReleaseDevice(device);
-  }
-  Scene(const Scene&) = delete;
-  Scene& operator=(const Scene&) = delete;
 
   // The order of the corners and of the triangles is that of their coordinates: what is nearest, to
   // the last bit, does not depend on the order in the file.
@@ -86,38 +74,27 @@ struct NearestTriangle::Scene {
     face = std::move(sorted_face);
   }
 
-  [[nodiscard]] Point3 to_scene(const Point3& p) const {
-    return {(p[0] - centre[0]) / unit, (p[1] - centre[1]) / unit, (p[2] - centre[2]) / unit};
-  }
-
   static void bounds(const RTCBoundsFunctionArguments* arguments) {
     const auto* self = static_cast<const Scene*>(arguments->geometryUserPtr);
     const std::array<Point3, 3>& t = self->corners[arguments->primID];
-    const auto low = [&t](int axis) {
-      return static_cast<float>(std::min({t[0][axis], t[1][axis], t[2][axis]}) - kRounding);
-    };
-    const auto high = [&t](int axis) {
-      return static_cast<float>(std::max({t[0][axis], t[1][axis], t[2][axis]}) + kRounding);
-    };
-    RTCBounds& box = *arguments->bounds_o;
-    box.lower_x = low(0);
-    box.lower_y = low(1);
-    box.lower_z = low(2);
-    box.upper_x = high(0);
-    box.upper_y = high(1);
-    box.upper_z = high(2);
+    Box3 box;
+    for (int axis = 0; axis < 3; ++axis) {
+      box.low[axis] = std::min({t[0][axis], t[1][axis], t[2][axis]});
+      box.high[axis] = std::max({t[0][axis], t[1][axis], t[2][axis]});
+    }
+    set_embree_bounds(*arguments->bounds_o, box);
   }
 
   struct Query {
     const Scene* scene;
-    Point3 p;  // in the scene's coordinates
+    Point3 p;  // in the frame
     double slack;
     double squared = std::numeric_limits<double>::infinity();
     std::uint32_t primitive = NearestPoint::kNone;
     Point3 point{};
 
     [[nodiscard]] float radius() const {
-      return static_cast<float>(std::sqrt(squared) * (1 + kRounding) + slack);
+      return static_cast<float>(std::sqrt(squared) * (1 + kEmbreeRounding) + slack);
     }
   };
 
@@ -160,32 +137,11 @@ NearestTriangle::Scene::Scene(const TriangleSoup& soup) {
       }
     }
   }
-  centre = 0.5 * (box.low + box.high);
-  unit = box.longest_edge() > 0 ? box.longest_edge() : 1.0;
+  frame = EmbreeFrame(box);
   for (std::array<Point3, 3>& t : corners) {
-    for (Point3& p : t) p = to_scene(p);
+    for (Point3& p : t) p = frame(p);
   }
-
-  device = rtcNewDevice(nullptr);
-  if (device == nullptr) throw Error("Embree cannot be started");
-  scene = rtcNewScene(device);
-  rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
-  RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);
-  rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(corners.size()));
-  rtcSetGeometryUserData(geometry, this);
-  rtcSetGeometryBoundsFunction(
-      geometry, [](const RTCBoundsFunctionArguments* arguments) { bounds(arguments); }, nullptr);
-  rtcSetGeometryPointQueryFunction(
-      geometry, [](RTCPointQueryFunctionArguments* arguments) { return visit(arguments); });
-  rtcCommitGeometry(geometry);
-  rtcAttachGeometry(scene, geometry);
-  rtcReleaseGeometry(geometry);
-  rtcCommitScene(scene);
-  if (rtcGetDeviceError(device) != RTC_ERROR_NONE) {
-    rtcReleaseScene(scene);
-    rtcReleaseDevice(device);
-    throw LimitError("Embree cannot build its hierarchy: out of memory");
-  }
+  embree.build(corners.size(), this, bounds, visit);
 }
 
 NearestTriangle::NearestTriangle(const TriangleSoup& soup)
@@ -197,21 +153,16 @@ NearestTriangle& NearestTriangle::operator=(NearestTriangle&&) noexcept = defaul
 NearestPoint NearestTriangle::operator()(const Point3& p, double limit) const {
   const Scene& s = *scene_;
   NearestPoint result;
-  if (s.scene == nullptr || !is_finite(p)) return result;
-  const Point3 q = s.to_scene(p);
-  const double size = std::max({std::fabs(q[0]), std::fabs(q[1]), std::fabs(q[2]), 1.0});
-  Scene::Query query{.scene = &s, .p = q, .slack = kRounding * size};
-  const double scaled_limit = limit / s.unit;
+  if (!is_finite(p)) return result;
+  const Point3 q = s.frame(p);
+  Scene::Query query{.scene = &s, .p = q, .slack = embree_slack(q)};
+  const double scaled_limit = limit / s.frame.unit;
   query.squared = scaled_limit * scaled_limit;
-  RTCPointQuery embree_query{static_cast<float>(q[0]), static_cast<float>(q[1]),
-                             static_cast<float>(q[2]), 0.0F, query.radius()};
-  RTCPointQueryContext context;
-  rtcInitPointQueryContext(&context);
-  rtcPointQuery(s.scene, &embree_query, &context, nullptr, &query);
+  s.embree.query(q, query.radius(), &query);
   if (query.primitive == NearestPoint::kNone) return result;
   result.face = s.face[query.primitive];
-  result.point = s.centre + s.unit * query.point;
-  result.distance = std::sqrt(query.squared) * s.unit;
+  result.point = s.frame.centre + s.frame.unit * query.point;
+  result.distance = std::sqrt(query.squared) * s.frame.unit;
   return result;
 }
 

@@ -101,6 +101,26 @@ std::optional<std::size_t> PlyElement::fixed_size() const {
   return size;
 }
 
+const PlyElement* find_element(const PlyHeader& header, std::string_view name) {
+  for (const PlyElement& element : header.elements) {
+    if (element.name == name) return &element;
+  }
+  return nullptr;
+}
+
+std::size_t find_property(const PlyElement& element, std::string_view name, bool list) {
+  for (std::size_t i = 0; i < element.properties.size(); ++i) {
+    const PlyProperty& property = element.properties[i];
+    if (property.name == name && property.count_type.has_value() == list) return i;
+  }
+  return kAbsent;
+}
+
+bool has_faces(const PlyHeader& header) {
+  const PlyElement* face = find_element(header, "face");
+  return face != nullptr && face->count > 0;
+}
+
 PlyHeader read_ply_header(std::string_view bytes) {
   // The header is text even where the data are not: its line ends are told apart within it alone.
   constexpr std::string_view kEnd = "end_header";

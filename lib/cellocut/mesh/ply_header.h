@@ -1,6 +1,7 @@
-// The header of a PLY file. Internal to read_ply().
+// The header of a PLY file. Internal to the PLY readers.
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -33,6 +34,14 @@ struct PlyHeader {
   std::size_t bytes = 0;  // of the header: where the data begin
   std::size_t lines = 0;
 };
+
+// The first element of that name; null where there is none.
+const PlyElement* find_element(const PlyHeader& header, std::string_view name);
+// Number of the property of that name (list or not), or kAbsent.
+constexpr std::size_t kAbsent = std::numeric_limits<std::size_t>::max();
+std::size_t find_property(const PlyElement& element, std::string_view name, bool list);
+// A mesh, as opposed to a point cloud.
+bool has_faces(const PlyHeader& header);
 
 // Errors: InputError with the line.
 PlyHeader read_ply_header(std::string_view bytes);

@@ -1,0 +1,233 @@
+#include "tools/evaluation_report.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "cellocut_version.h"
+#include "tools/report_json.h"
+
+namespace cellocut::tools {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// ---- tables -------------------------------------------------------------------------------------
+
+// Columns as wide as their widest entry: the first to the left, the others to the right.
+class Table {
+ public:
+  explicit Table(std::vector<std::string> heads) : rows_{std::move(heads)} {}
+  void add(std::vector<std::string> row) { rows_.push_back(std::move(row)); }
+
+  [[nodiscard]] std::string text() const {
+    std::vector<std::size_t> widths(rows_[0].size(), 0);
+    for (const auto& row : rows_) {
+      for (std::size_t k = 0; k < row.size(); ++k) widths[k] = std::max(widths[k], row[k].size());
+    }
+    std::string text;
+    for (const auto& row : rows_) {
+      std::string line = fmt::format("{:<{}}", row[0], widths[0]);
+      for (std::size_t k = 1; k < row.size(); ++k)
+        line += fmt::format("  {:>{}}", row[k], widths[k]);
+      text += line + "\n";
+    }
+    return text;
+  }
+
+ private:
+  std::vector<std::vector<std::string>> rows_;
+};
+
+std::string figure(const std::optional<double>& value) {
+  return value ? fmt::format("{:.4g}", *value) : "-";
+}
+
+std::string agreement_table(const EvaluationReport& report, const char* title,
+                            Agreement Evaluation::*kind) {
+  std::vector<std::string> heads{title, "CD", "HD", "ANC"};
+  for (const double t : report.options.thresholds) heads.push_back(fmt::format("F1@{}", t));
+  Table table(std::move(heads));
+  for (const EvaluatedMesh& mesh : report.meshes) {
+    const Agreement& found = mesh.evaluation.*kind;
+    std::vector<std::string> row{mesh.path, figure(found.chamfer), figure(found.hausdorff),
+                                 figure(found.normal_consistency)};
+    for (std::size_t k = 0; k < report.options.thresholds.size(); ++k) {
+      row.push_back(found.f1.empty() ? "-" : fmt::format("{:.2f}", found.f1[k]));
+    }
+    table.add(std::move(row));
+  }
+  return table.text();
+}
+
+std::string distance_table(const EvaluationReport& report, const char* title,
+                           std::optional<DistanceSummary> Agreement::*way,
+                           Agreement Evaluation::*kind) {
+  Table table({title, "median", "p95", "mean", "max", "median*", "p95*", "mean*", "max*"});
+  for (const EvaluatedMesh& mesh : report.meshes) {
+    const std::optional<DistanceSummary>& found = mesh.evaluation.*kind.*way;
+    std::vector<std::string> row{mesh.path};
+    for (const double unit : {1.0, report.reference.unit}) {
+      for (const auto value : {&DistanceSummary::median, &DistanceSummary::p95,
+                               &DistanceSummary::mean, &DistanceSummary::largest}) {
+        row.push_back(found ? figure(unit * (*found).*value) : "-");
+      }
+    }
+    table.add(std::move(row));
+  }
+  return table.text();
+}
+
+std::string shape_table(const EvaluationReport& report) {
+  Table table({"mesh", "triangles", "components", "volume", "area"});
+  for (const EvaluatedMesh& mesh : report.meshes) {
+    table.add({mesh.path, fmt::format("{}", mesh.surface.triangles),
+               fmt::format("{} / {}", mesh.surface.components.size(), mesh.components_by_position),
+               fmt::format("{:.6g}", mesh.surface.volume),
+               fmt::format("{:.6g}", mesh.surface.area)});
+  }
+  return table.text();
+}
+
+std::string count_table(const EvaluationReport& report) {
+  Table table({"mesh", "boundary edges", "nm edges", "nm vertices", "misoriented", "duplicates",
+               "degenerate", "intersecting", "valid"});
+  for (const EvaluatedMesh& mesh : report.meshes) {
+    const auto both = [&](std::int64_t IncidenceCounts::*count) {
+      return fmt::format("{} / {}", mesh.surface.by_index.*count, mesh.surface.by_position.*count);
+    };
+    table.add(
+        {mesh.path, both(&IncidenceCounts::boundary_edges),
+         both(&IncidenceCounts::nonmanifold_edges), both(&IncidenceCounts::nonmanifold_vertices),
+         both(&IncidenceCounts::misoriented_edges), both(&IncidenceCounts::duplicate_faces),
+         fmt::format("{}", mesh.surface.degenerate_faces),
+         fmt::format("{}", mesh.surface.intersecting_pairs), mesh.surface.valid() ? "yes" : "no"});
+  }
+  return table.text();
+}
+
+std::string reference_line(const EvaluatedReference& reference) {
+  if (!reference.surface) {
+    return fmt::format("reference {}: {} points, {} normals; longest edge of its box {:.6g}\n",
+                       reference.path, reference.points, reference.normals ? "with" : "without",
+                       reference.unit);
+  }
+  const SurfaceReport& surface = *reference.surface;
+  return fmt::format(
+      "reference {}: {} triangles, {} components, volume {:.6g}, area {:.6g}; longest edge of "
+      "its box {:.6g}\n",
+      reference.path, surface.triangles, surface.components.size(), surface.volume, surface.area,
+      reference.unit);
+}
+
+// ---- JSON ---------------------------------------------------------------------------------------
+
+Json or_null(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
+
+Json distances_json(const std::optional<DistanceSummary>& found, double unit) {
+  if (!found) return nullptr;
+  const auto in = [&](double length) {
+    return Json{{"median", length * found->median},
+                {"p95", length * found->p95},
+                {"mean", length * found->mean},
+                {"max", length * found->largest},
+                {"mean_square", length * length * found->mean_square}};
+  };
+  return {{"relative", in(1)}, {"input_units", in(unit)}};
+}
+
+Json f1_json(const Evaluation& found, const std::vector<double>& thresholds) {
+  Json list = Json::array();
+  for (std::size_t k = 0; k < thresholds.size(); ++k) {
+    const auto at = [k](const std::vector<double>& f1) {
+      return f1.empty() ? Json(nullptr) : Json(f1[k]);
+    };
+    list.push_back({{"threshold", thresholds[k]},
+                    {"f1", at(found.sampled.f1)},
+                    {"f1_p2s", at(found.to_surface.f1)}});
+  }
+  return list;
+}
+
+Json mesh_json(const EvaluatedMesh& mesh, const EvaluationReport& report) {
+  const Agreement& sampled = mesh.evaluation.sampled;
+  const Agreement& p2s = mesh.evaluation.to_surface;
+  const double unit = report.reference.unit;
+  Json json{{"path", mesh.path},
+            {"points", mesh.surface.points},
+            {"triangles", mesh.surface.triangles},
+            {"components", mesh.surface.components.size()},
+            {"components_by_position", mesh.components_by_position},
+            {"volume", mesh.surface.volume},
+            {"area", mesh.surface.area},
+            {"cd", or_null(sampled.chamfer)},
+            {"hd", or_null(sampled.hausdorff)},
+            {"anc", or_null(sampled.normal_consistency)},
+            {"cd_p2s", or_null(p2s.chamfer)},
+            {"hd_p2s", or_null(p2s.hausdorff)},
+            {"anc_p2s", or_null(p2s.normal_consistency)},
+            {"f1", f1_json(mesh.evaluation, report.options.thresholds)},
+            {"distances",
+             {{"to_reference", distances_json(sampled.to_reference, unit)},
+              {"from_reference", distances_json(sampled.from_reference, unit)},
+              {"to_reference_p2s", distances_json(p2s.to_reference, unit)},
+              {"from_reference_p2s", distances_json(p2s.from_reference, unit)}}}};
+  if (report.counts) json["output"] = output_json(mesh.surface, mesh.path);
+  return json;
+}
+
+Json reference_json(const EvaluatedReference& reference) {
+  Json json{{"path", reference.path},
+            {"kind", reference.surface ? "mesh" : "points"},
+            {"unit", reference.unit},
+            {"points", reference.points},
+            {"normals", reference.normals}};
+  if (reference.surface) {
+    json["triangles"] = reference.surface->triangles;
+    json["components"] = reference.surface->components.size();
+    json["volume"] = reference.surface->volume;
+    json["area"] = reference.surface->area;
+  }
+  return json;
+}
+
+}  // namespace
+
+std::string evaluation_tables(const EvaluationReport& report) {
+  std::string text = reference_line(report.reference);
+  text += fmt::format("{} samples, seed {}; lengths relative to that edge, * in input units\n",
+                      report.options.samples, report.options.seed);
+  const auto add = [&text](const std::string& table) { text += fmt::format("\n{}", table); };
+  add(agreement_table(report, "between samples", &Evaluation::sampled));
+  if (report.reference.surface) {
+    add(agreement_table(report, "to surface (p2s)", &Evaluation::to_surface));
+    add(distance_table(report, "to reference (p2s)", &Agreement::to_reference,
+                       &Evaluation::to_surface));
+  } else {
+    // Points have no surface to measure to.
+    add(distance_table(report, "to reference (points)", &Agreement::to_reference,
+                       &Evaluation::sampled));
+  }
+  add(distance_table(report, "from reference (p2s)", &Agreement::from_reference,
+                     &Evaluation::to_surface));
+  text += "\ncounts by index / after points of equal coordinates are merged\n";
+  text += shape_table(report);
+  if (report.counts) add(count_table(report));
+  return text;
+}
+
+nlohmann::ordered_json evaluation_json(const EvaluationReport& report) {
+  Json meshes = Json::array();
+  for (const EvaluatedMesh& mesh : report.meshes) meshes.push_back(mesh_json(mesh, report));
+  return {{"version", kCellocutVersion},
+          {"parameters",
+           {{"samples", report.options.samples},
+            {"seed", report.options.seed},
+            {"thresholds", report.options.thresholds}}},
+          {"reference", reference_json(report.reference)},
+          {"meshes", meshes}};
+}
+
+}  // namespace cellocut::tools

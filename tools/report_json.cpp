@@ -33,7 +33,7 @@ const char* surface_name(SurfaceMode mode) {
 
 // Lengths and volumes in input units.
 Json surface_json(const RemeshResult& result, const RemeshOptions& options) {
-  Json surface;
+  Json surface = Json::object();
   if (options.surface == SurfaceMode::union_) {
     const LabellingDepartures& departures = result.departures;
     surface["departures"] = {{"solid_beyond_labelling_volume", departures.beyond},

@@ -9,7 +9,7 @@
 
 namespace cellocut {
 
-enum class CollapseVerdict { allowed, folds, degenerate, intersecting };
+enum class CollapseVerdict { allowed, folds, sliver, degenerate, intersecting };
 
 // Follows the surface from collapse to collapse; every one that happens has to be told.
 class CollapseTest {
@@ -19,6 +19,8 @@ class CollapseTest {
 
   // - folds: a face would turn by more than some 80 degrees (a rule of taste: it keeps the surface
   //   from folding over, which need not make it intersect);
+  // - sliver: a face would be flatter than 1 : 1000 and than all that it stands for (taste as well:
+  //   such faces have no use, and rounding to float would make them degenerate);
   // - degenerate: a face would have its corners on one line, by exact predicate;
   // - intersecting: a face would meet another, of all that are there at this moment, in more than
   //   common corners and edges, by exact predicates.

@@ -27,6 +27,7 @@ struct CollapseCounts {
   std::int64_t collapses = 0;
   std::int64_t refused_topology = 0;
   std::int64_t refused_folding = 0;
+  std::int64_t refused_slivers = 0;
   std::int64_t refused_degenerate = 0;
   std::int64_t refused_intersecting = 0;
   std::int64_t refused_distance = 0;

@@ -25,7 +25,7 @@ EdgeCollapser::EdgeCollapser(const TriangleSoup& surface, double bound, Observer
       test_(surface.points, mesh_),
       quadrics_(surface),
       heap_(surface.points.size()) {
-  if (bound > 0) removed_.emplace(surface.points, mesh_, bound);
+  if (bound > 0) distance_.emplace(surface, mesh_, bound);
 }
 
 // The vertex waits with the cost of its cheapest collapse.
@@ -94,7 +94,7 @@ bool EdgeCollapser::try_collapse(const Candidate& candidate) {
   if (!is_allowed()) return false;
   mesh_.apply(collapse_);
   test_.applied(collapse_);
-  if (removed_) removed_->applied(collapse_);
+  if (distance_) distance_->applied(collapse_);
   quadrics_.merge(collapse_.from, collapse_.to);
   ++counts_.collapses;
   const std::uint32_t to = collapse_.to;
@@ -103,8 +103,9 @@ bool EdgeCollapser::try_collapse(const Candidate& candidate) {
   return true;
 }
 
+// What refuses most is asked first, what takes longest last.
 bool EdgeCollapser::is_allowed() {
-  if (removed_ && !removed_->allows(collapse_)) {
+  if (distance_ && !distance_->keeps_removed_points(collapse_)) {
     ++counts_.refused_distance;
     return false;
   }
@@ -122,9 +123,13 @@ bool EdgeCollapser::is_allowed() {
       ++counts_.refused_intersecting;
       return false;
     case CollapseVerdict::allowed:
-      return true;
+      break;
   }
-  return false;
+  if (distance_ && !distance_->keeps_faces(collapse_)) {
+    ++counts_.refused_distance;
+    return false;
+  }
+  return true;
 }
 
 TriangleSoup EdgeCollapser::surface(std::vector<std::uint32_t>& source) const {

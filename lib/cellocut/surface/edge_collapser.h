@@ -8,7 +8,7 @@
 #include "cellocut/base/observer.h"
 #include "cellocut/surface/collapse_mesh.h"
 #include "cellocut/surface/collapse_test.h"
-#include "cellocut/surface/removed_points.h"
+#include "cellocut/surface/distance_test.h"
 #include "cellocut/surface/simplification.h"
 #include "cellocut/surface/vertex_heap.h"
 #include "cellocut/surface/vertex_quadrics.h"
@@ -17,8 +17,9 @@ namespace cellocut {
 
 class EdgeCollapser {
  public:
-  // `surface` must outlive this; `bound` on how far removed vertices are from what is left, in its
-  // units (0: none). O(n log n). Precondition: as for simplify_surface().
+  // `surface` must outlive this; `bound` in its units on how far removed vertices are from what is
+  // left, and faces that are left from the surface (0: none). O(n log n). Precondition: as for
+  // simplify_surface().
   EdgeCollapser(const TriangleSoup& surface, double bound, Observer& observer);
 
   // Collapses until at most `target` faces are left or no collapse is allowed. Every vertex waits
@@ -50,7 +51,7 @@ class EdgeCollapser {
   Observer& observer_;
   CollapseMesh mesh_;
   CollapseTest test_;
-  std::optional<RemovedPoints> removed_;
+  std::optional<DistanceTest> distance_;
   VertexQuadrics quadrics_;
   VertexHeap heap_;
   CollapseCounts counts_;

@@ -52,8 +52,8 @@ struct Simplification {
 // after an exact test that the surface stays a 2-manifold without degenerate and without
 // intersecting faces (collapse_test.h): the result is as valid as the surface given, and has its
 // topology: no component goes, no handle, no cavity. Points keep their coordinates. With a bound on
-// the error, collapses are also refused where they leave removed vertices too far away
-// (removed_points.h); where the distance measured afterwards is above `max_error` all the same, it
+// the error, collapses are also refused where they leave the surface too far away
+// (distance_test.h); where the distance measured afterwards is above `max_error` all the same, it
 // starts again with a tighter bound. If both options are 0 the surface is returned as it is.
 //
 // One thread (the measure of the error uses all); the same bits on every run, for any number of

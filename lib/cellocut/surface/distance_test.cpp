@@ -1,19 +1,20 @@
-#include "cellocut/surface/removed_points.h"
+#include "cellocut/surface/distance_test.h"
 
+#include <algorithm>
+#include <array>
 #include <limits>
-
-#include "cellocut/measure/nearest_triangle.h"
 
 namespace cellocut {
 
-RemovedPoints::RemovedPoints(const std::vector<Point3>& points, const CollapseMesh& mesh,
-                             double bound)
-    : points_(points),
-      squared_bound_(bound * bound),
+DistanceTest::DistanceTest(const TriangleSoup& surface, const CollapseMesh& mesh, double bound)
+    : points_(surface.points),
+      bound_(bound),
+      nearest_(surface),
+      full_(surface, nearest_, bounding_box(surface).longest_edge()),
       first_(mesh.faces().size(), kNone),
-      next_(points.size(), kNone) {}
+      next_(surface.points.size(), kNone) {}
 
-bool RemovedPoints::allows(const Collapse& collapse) {
+bool DistanceTest::keeps_removed_points(const Collapse& collapse) {
   moved_.assign(1, collapse.from);
   goal_.clear();
   const auto collect = [this](std::uint32_t v) { moved_.push_back(v); };
@@ -32,13 +33,20 @@ bool RemovedPoints::allows(const Collapse& collapse) {
         nearest = i;
       }
     }
-    if (!(least <= squared_bound_)) return false;
+    if (!(least <= bound_ * bound_)) return false;
     goal_.push_back(nearest);
   }
   return true;
 }
 
-void RemovedPoints::applied(const Collapse& collapse) {
+bool DistanceTest::keeps_faces(const Collapse& collapse) const {
+  return std::all_of(collapse.after.begin(), collapse.after.end(), [this](const Triangle& t) {
+    const std::array<Point3, 3> corners{points_[t[0]], points_[t[1]], points_[t[2]]};
+    return full_.measure(corners, {}, {.enough = bound_, .too_much = bound_}).upper <= bound_;
+  });
+}
+
+void DistanceTest::applied(const Collapse& collapse) {
   for (const std::uint32_t face : collapse.vanishing) first_[face] = kNone;
   for (const std::uint32_t face : collapse.changed) first_[face] = kNone;
   for (std::size_t i = 0; i < moved_.size(); ++i) {

@@ -63,11 +63,12 @@ Simplification simplify_surface(const TriangleSoup& surface, const Simplificatio
     result.attempts = n;
     if (options.max_error == 0 || result.error <= options.max_error) break;
     if (n == kMostAttempts) {
-      const CollapseCounts counts = result.counts;
       result = unchanged(surface);
-      result.counts = counts;
-      result.counts.collapses = 0;
       result.attempts = n;
+      result.reached = false;
+      result.stop = fmt::format(
+          "{} attempts did not keep to the error allowed, {}: the surface is left as it is", n,
+          options.max_error);
       break;
     }
     bound *= kTighten * options.max_error / result.error;
@@ -75,11 +76,11 @@ Simplification simplify_surface(const TriangleSoup& surface, const Simplificatio
   observer.progress(1);
 
   const auto left = static_cast<std::int64_t>(result.surface.triangles.size());
-  result.reached = options.faces == 0 || left <= options.faces;
-  if (!result.reached) {
+  if (options.faces > 0 && left > options.faces && result.reached) {
+    result.reached = false;
     result.stop = fmt::format(
         "{} faces are left of {}, {} were asked for: every further collapse would change the "
-        "topology, fold the surface, make faces degenerate or intersecting{}",
+        "topology, fold the surface, make slivers, degenerate or intersecting faces{}",
         left, surface.triangles.size(), options.faces,
         options.max_error > 0 ? ", or exceed the error allowed" : "");
   }

@@ -36,8 +36,8 @@ struct CollapseCounts {
 struct Simplification {
   TriangleSoup surface;
   std::vector<std::uint32_t> source;  // for each point the point of the surface given that it is
-  // Whether `faces` has been reached (true where there is no such target); `stop` says why not, in
-  // a sentence.
+  // Whether what was asked for has been reached: `faces`, if given, and an error within `max_error`
+  // by any collapse at all. `stop` says why not, in a sentence, and is empty otherwise.
   bool reached = true;
   std::string stop;
   // Two-sided Hausdorff distance to the surface given, in its units: proven bounds (see
@@ -54,7 +54,8 @@ struct Simplification {
 // topology: no component goes, no handle, no cavity. Points keep their coordinates. With a bound on
 // the error, collapses are also refused where they leave the surface too far away
 // (distance_test.h); where the distance measured afterwards is above `max_error` all the same, it
-// starts again with a tighter bound. If both options are 0 the surface is returned as it is.
+// starts again with a tighter bound (and progress from 0); after six such attempts it returns the
+// surface as it is. If both options are 0 the surface is returned as it is.
 //
 // One thread (the measure of the error uses all); the same bits on every run, for any number of
 // threads, and for surfaces that differ by a power of two. O(n log n); about 300 bytes a face.

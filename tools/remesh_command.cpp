@@ -73,6 +73,13 @@ void add_arguments(CLI::App& app, RemeshArguments& a) {
   app.add_option("--pull-distance", a.pipeline.options.pull_distance,
                  "What --pull leaves, relative to the longest edge (default: min(1/resolution, "
                  "epsilon) / 40)");
+  app.add_option("--faces", a.pipeline.options.faces,
+                 "Simplify the surface to so many triangles, where it stays valid (0: not)")
+      ->capture_default_str();
+  app.add_option("--max-error", a.pipeline.options.max_error,
+                 "Simplify no further than to this Hausdorff distance from the full surface, "
+                 "relative to the longest edge (0: no bound)")
+      ->capture_default_str();
   add_solver_options(app, a.pipeline.options.reduce, a.pipeline.options.relaxation);
   app.add_option("--min-component", a.pipeline.options.min_component,
                  "Drop components below this share of the total volume, 0 to 1")
@@ -132,6 +139,11 @@ void print_summary(const RemeshResult& result, const RemeshArguments& a, double 
         "the input median {:.3g}, 95 % {:.3g}\n",
         pull.supported, pull.vertices, pull.stopped_early, pull.went_back, pull.offset.median,
         pull.offset.p95);
+  }
+  if (a.options().simplifies()) {
+    fmt::print(
+        "simplification: error at most {:.3g}{}{}\n", result.simplification.error,
+        result.simplification.reached ? "" : "; stopped early: ", result.simplification.stop);
   }
   const SurfaceReport& report = result.surface_report;
   fmt::print("surface: {} triangles, {} component{}, volume {:.6g}, {}\n", report.triangles,

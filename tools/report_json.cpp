@@ -49,6 +49,22 @@ Json surface_json(const RemeshResult& result, const RemeshOptions& options) {
                        {"rounds", pull.rounds},         {"offset_median", pull.offset.median},
                        {"offset_p95", pull.offset.p95}, {"offset_largest", pull.offset.largest}};
   }
+  if (options.simplifies()) {
+    const Simplification& simplified = result.simplification;
+    const CollapseCounts& counts = simplified.counts;
+    surface["simplification"] = {{"reached", simplified.reached},
+                                 {"stop", simplified.stop},
+                                 {"error", simplified.error},
+                                 {"error_lower", simplified.error_lower},
+                                 {"attempts", simplified.attempts},
+                                 {"collapses", counts.collapses},
+                                 {"refused_topology", counts.refused_topology},
+                                 {"refused_folding", counts.refused_folding},
+                                 {"refused_slivers", counts.refused_slivers},
+                                 {"refused_degenerate", counts.refused_degenerate},
+                                 {"refused_intersecting", counts.refused_intersecting},
+                                 {"refused_distance", counts.refused_distance}};
+  }
   return surface;
 }
 
@@ -67,6 +83,8 @@ Json parameters_json(const RemeshResult& result, const RemeshOptions& options) {
           {"surface", surface_name(options.surface)},
           {"pull", options.pulls()},
           {"pull_distance", result.derived.pull_distance},
+          {"faces", options.faces},
+          {"max_error", options.max_error},
           {"thickening", options.thickening},
           {"unary", options.unary},
           {"min_component", options.min_component}};

@@ -39,6 +39,10 @@ void RemeshOptions::validate() const {
   require(!pull_distance || pulls(), "--pull-distance needs --pull");
   require(!pull_distance || (*pull_distance > 0 && *pull_distance <= 1),
           "--pull-distance must be above 0 and at most 1");
+  require(faces == 0 || faces >= 4, "--faces must be at least 4");
+  require(max_error >= 0 && max_error <= 1, "--max-error must be between 0 and 1");
+  require(surface != SurfaceMode::cells || !simplifies(),
+          "--surface cells cannot be simplified: its parts may touch");
   require(min_component >= 0 && min_component <= 1, "--min-component must be between 0 and 1");
 }
 

@@ -106,6 +106,18 @@ TriangleSoup extract_surface(RemeshResult& result, const RemeshOptions& options,
   return surface;
 }
 
+// Per-vertex values follow the vertices that are left.
+void adopt_simplified(RemeshResult& result) {
+  Simplification& simplified = result.simplification;
+  std::vector<std::uint8_t> supported;
+  supported.reserve(simplified.source.size());
+  for (const std::uint32_t v : simplified.source) supported.push_back(result.supported[v]);
+  result.supported = std::move(supported);
+  result.surface = std::move(simplified.surface);
+  simplified.surface = {};
+  simplified.source = {};
+}
+
 }  // namespace
 
 bool RemeshResult::empty_solid() const {
@@ -198,6 +210,14 @@ RemeshResult remesh(const TriangleSoup& input, const RemeshOptions& options,
                            result.derived.epsilon * result.frame.unit,
                            result.derived.pull_distance * result.frame.unit, observer);
     });
+  }
+  if (options.simplifies()) {
+    result.simplification = stage("simplification", [&] {
+      return simplify_surface(
+          result.surface,
+          {.faces = options.faces, .max_error = options.max_error * result.frame.unit}, observer);
+    });
+    adopt_simplified(result);
   }
   result.surface = as_read_back(std::move(result.surface), options.output_format);
   result.surface_report = stage("validity", [&] {

@@ -18,6 +18,7 @@
 #include "cellocut/mesh/triangle_soup.h"
 #include "cellocut/proxy/proxy.h"
 #include "cellocut/surface/pull.h"
+#include "cellocut/surface/simplification.h"
 #include "cellocut/surface/union_field.h"
 #include "cellocut/validity/surface_report.h"
 
@@ -25,8 +26,8 @@ namespace cellocut {
 
 enum class SurfaceMode {
   union_,  // phi where the surface is supported, the absorbed cells where it was completed
-  sdf,   // signed distance of the interface, marching cubes (the paper's)
-  cells  // the facets of the interface, made manifold by splitting
+  sdf,     // signed distance of the interface, marching cubes (the paper's)
+  cells    // the facets of the interface, made manifold by splitting
 };
 
 // Minimum cuts are not unique; see cut/cut_solver.h.
@@ -48,8 +49,8 @@ struct RemeshOptions {
   // Whether supported vertices are pulled to the input; by default with `union_` alone, never with
   // `cells`.
   std::optional<bool> pull;
-  // The distance from the input that pulled vertices keep, relative to the longest edge; above 0, at
-  // most epsilon. Default min(1/R, epsilon) / 40.
+  // The distance from the input that pulled vertices keep, relative to the longest edge; above 0,
+  // at most epsilon. Default min(1/R, epsilon) / 40.
   std::optional<double> pull_distance;
   bool thickening = true;  // false: phi is the flood-signed distance, no offset (ablation)
   bool unary = true;       // false: L* only sets weights, nothing is anchored interior (ablation)
@@ -62,6 +63,12 @@ struct RemeshOptions {
   // The format that the surface will be written in: it is judged as a reader will see it.
   MeshFormat output_format = MeshFormat::obj;
 
+  // Fewer triangles: a target, and a bound on the Hausdorff distance to the full surface relative
+  // to the longest edge. 0: none.
+  std::int64_t faces = 0;
+  double max_error = 0;
+
+  [[nodiscard]] bool simplifies() const { return faces > 0 || max_error > 0; }
   [[nodiscard]] bool pulls() const { return pull.value_or(surface == SurfaceMode::union_); }
 
   // Errors: UsageError that names the option and what it may be.
@@ -108,7 +115,8 @@ struct RemeshResult {
   LabellingDepartures departures;
   std::vector<std::uint8_t> supported;  // per vertex of the surface: it follows the input
   PullReport pull;
-  TriangleSoup surface;  // in input units; as the reader of the file will see it
+  Simplification simplification;  // its surface and source have moved to `surface`
+  TriangleSoup surface;           // in input units; as the reader of the file will see it
   SurfaceReport surface_report;
   std::int64_t dropped_components = 0;
   std::vector<StageTime> stages;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <map>
@@ -22,6 +23,47 @@ inline TriangleSoup box(const Point3& low = {0, 0, 0}, const Point3& high = {1, 
   }
   soup.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
                     {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
+  return soup;
+}
+
+// The box [low, high] with 2 n^2 faces to a side, oriented outward.
+inline TriangleSoup gridded_box(const Point3& low, const Point3& high, std::uint32_t n) {
+  TriangleSoup soup;
+  std::map<std::array<std::uint32_t, 3>, std::uint32_t> number;
+  const auto point = [&](const std::array<std::uint32_t, 3>& at) {
+    const auto [place, fresh] =
+        number.try_emplace(at, static_cast<std::uint32_t>(soup.points.size()));
+    if (fresh) {
+      Point3 p{};
+      for (int axis = 0; axis < 3; ++axis) {
+        const double t = static_cast<double>(at[axis]) / n;
+        p[axis] = (1 - t) * low[axis] + t * high[axis];
+      }
+      soup.points.push_back(p);
+    }
+    return place->second;
+  };
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const bool upper : {false, true}) {
+      for (std::uint32_t i = 0; i < n; ++i) {
+        for (std::uint32_t j = 0; j < n; ++j) {
+          const auto corner = [&](std::uint32_t di, std::uint32_t dj) {
+            std::array<std::uint32_t, 3> at{};
+            at[axis] = upper ? n : 0;
+            at[(axis + 1) % 3] = i + di;
+            at[(axis + 2) % 3] = j + dj;
+            return point(at);
+          };
+          const std::uint32_t a = corner(0, 0);
+          const std::uint32_t b = upper ? corner(1, 0) : corner(0, 1);
+          const std::uint32_t c = corner(1, 1);
+          const std::uint32_t d = upper ? corner(0, 1) : corner(1, 0);
+          soup.triangles.push_back({a, b, c});
+          soup.triangles.push_back({a, c, d});
+        }
+      }
+    }
+  }
   return soup;
 }
 

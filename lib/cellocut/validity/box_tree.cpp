@@ -79,4 +79,19 @@ void BoxTree::bound(std::size_t node) {
   box.include(nodes_[2 * node + 1]);
 }
 
+void BoxTree::replace(std::size_t place, const FloatBox& box) {
+  boxes_[place] = box;
+  // The last leaf that begins at or before the place (see begin_of).
+  const std::size_t leaf = (((place + 1) << depth_) - 1) / ids_.size();
+  FloatBox bounds = FloatBox::none();
+  for (std::size_t i = begin_of(leaf); i < begin_of(leaf + 1); ++i) bounds.include(boxes_[i]);
+  for (std::size_t node = leaf_count() + leaf;;) {
+    if (nodes_[node].low == bounds.low && nodes_[node].high == bounds.high) return;
+    nodes_[node] = bounds;
+    if (node == 1) return;
+    bounds.include(nodes_[node ^ 1U]);
+    node /= 2;
+  }
+}
+
 }  // namespace cellocut

@@ -65,6 +65,14 @@ class BoxTree {
     return {ids_.data() + begin_of(leaf), ids_.data() + begin_of(leaf + 1)};
   }
 
+  // All ids in the order of the leaves: `ids()[place]`.
+  [[nodiscard]] std::span<const std::uint32_t> ids() const { return ids_; }
+
+  // Gives the box at a place of ids() another extent (FloatBox::none(): nothing finds it any more)
+  // and bounds the nodes above anew. The tree keeps its order, so it gets worse as boxes move away.
+  // O(log n); not while another thread visits.
+  void replace(std::size_t place, const FloatBox& box);
+
   // Calls visit(place in the leaf, id of the other) once for each pair of overlapping boxes of
   // which one is in `leaf` and the other is in the same or a later leaf; over all leaves that is
   // each overlapping pair once.

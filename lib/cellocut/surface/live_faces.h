@@ -1,0 +1,53 @@
+// The faces of a surface that changes, findable by their boxes: which faces may a new one touch?
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "cellocut/mesh/triangle_soup.h"
+#include "cellocut/validity/box_tree.h"
+
+namespace cellocut {
+
+// A box tree whose boxes follow the faces. A face that grows keeps its leaf; the tree is built anew
+// whenever half of its faces are gone, so that it stays a good one at O(1) each on average.
+class LiveFaces {
+ public:
+  // All faces. `points` must outlive this. O(n log n), parallel. Precondition: not empty; corners
+  // are finite.
+  LiveFaces(const std::vector<Point3>& points, const std::vector<Triangle>& faces);
+
+  [[nodiscard]] std::size_t count() const { return count_; }
+
+  // The face has other corners now. O(log n). Precondition: the face is live.
+  void change(std::uint32_t face, const Triangle& corners);
+  // The face is gone. O(log n) on average. Precondition: the face is live, and not the last.
+  void remove(std::uint32_t face);
+
+  // A box for find(): that of a triangle in the tree's coordinates.
+  [[nodiscard]] FloatBox box_of(const Triangle& corners) const;
+
+  // The box of a live face, in the same coordinates.
+  [[nodiscard]] const FloatBox& box(std::uint32_t face) const { return boxes_[face]; }
+
+  // Calls visit(face) for each live face whose box overlaps the given one, in an order that depends
+  // on the history of calls alone. O(log n + found) where faces do not crowd.
+  template <class Visit>
+  void find(const FloatBox& box, const Visit& visit) const {
+    tree_->visit_boxes([&](const FloatBox& other) { return overlap(other, box); }, visit);
+  }
+
+ private:
+  void build(const std::vector<std::uint32_t>& ids);
+
+  const std::vector<Point3>& points_;
+  Point3 centre_{};
+  double scale_ = 1;
+  std::size_t count_ = 0;
+  std::vector<FloatBox> boxes_;       // by face
+  std::vector<std::uint32_t> place_;  // in the tree; kGone for those that are no more
+  std::optional<BoxTree> tree_;
+};
+
+}  // namespace cellocut

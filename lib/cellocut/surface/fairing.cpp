@@ -27,7 +27,8 @@ constexpr double kToleratedExcess = 0.1;
 constexpr double kPinStiffness = 10;  // per step; the bending term of one vertex has about 7
 constexpr int kMostPinningPasses = 3;
 constexpr int kSpreadingSweeps = 5;
-constexpr double kSettledMove = 0.05;  // steps; a round that moves no vertex further is the last
+constexpr double kAcceptedGrowth = 1.2;  // of the bending energy in a round
+constexpr double kSettledMove = 0.05;    // steps; a round that moves no vertex further is the last
 
 void require(bool holds, const char* what) {
   if (!holds) throw UsageError(what);
@@ -69,18 +70,31 @@ class PatchFairing {
   bool run() {
     if (!patch_.has_rim()) return false;
     look_at_input();
-    set_cotangent_weights(rows_, patch_, start_);
-    bending_before_ = bending_after_ = bending_energy(rows_, start_, row_normals(patch_, start_));
-    observer_.check();
-    if (!smooth_facets()) return false;
+    bending_before_ = bending_after_ = measure_bending();
+    double length = options_.smoothing_steps;
+    if (!smooth_facets(length)) return false;
+    double bending = measure_bending();
     bool settled = false;
     for (int round = 0; round < options_.rounds && !settled; ++round) {
+      const std::vector<Point3> last = points_;
       spread_vertices();
       settled = move_along_normals() < kSettledMove;
+      const double moved = measure_bending();
+      if (moved <= kAcceptedGrowth * bending) {
+        bending = moved;
+        continue;
+      }
+      // Still so rough that moves along normals tangle it: less far, and from something smoother.
+      points_ = last;
+      settled = false;
+      length *= 2;
+      if (!smooth_facets(length)) return false;
+      bending = measure_bending();
     }
     stop_short_of_input(&stopped_);
-    set_cotangent_weights(rows_, patch_, points_);
-    bending_after_ = bending_energy(rows_, points_, row_normals(patch_, points_));
+    const double bending_after = measure_bending();
+    if (!(bending_after <= bending_before_)) return false;
+    bending_after_ = bending_after;
     return true;
   }
 
@@ -117,11 +131,18 @@ class PatchFairing {
     }
   }
 
-  bool smooth_facets() {
+  double measure_bending() {
+    set_cotangent_weights(rows_, patch_, points_);
+    return bending_energy(rows_, points_, row_normals(patch_, points_));
+  }
+
+  // By a membrane over that many steps, from where the vertices are. False where it has no
+  // solution.
+  bool smooth_facets(double length) {
     std::vector<std::uint8_t> is_free(patch_.movable);
     for (std::uint32_t i = 0; i < patch_.movable; ++i) is_free[i] = patch_.depth[i] == 0 ? 1 : 0;
     // On a hexagonal lattice with edges of length 1 the sum over edges is 3/2 of the Laplacian.
-    const double anchor = 1.5 / (options_.smoothing_steps * options_.smoothing_steps);
+    const double anchor = 1.5 / (length * length);
     if (!relax_membrane(rows_, is_free, anchor, points_)) return false;
     stop_short_of_input(nullptr);
     return true;
@@ -298,8 +319,8 @@ FairingResult fair_completed(const TriangleSoup& surface,
     outcome.moved = fairing.run();
     outcome.before = fairing.bending_before();
     outcome.after = fairing.bending_after();
-    outcome.stopped = fairing.stopped();
     if (outcome.moved) {
+      outcome.stopped = fairing.stopped();
       for (std::uint32_t i = 0; i < patch.movable; ++i) {
         const double move = fairing.move(i);
         if (!(move > 0)) continue;

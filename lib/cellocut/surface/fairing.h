@@ -26,7 +26,7 @@ struct FairingOptions {
       0.25;  // from where on a margin vertex pulls with a constant force; above 0
   // Over which length, in steps, the facets of the cut are smoothed before the bending energy is
   // looked at; above 0.
-  double smoothing_steps = 6;
+  double smoothing_steps = 4;
   int rounds = 3;          // times that the bending energy is linearised anew; 0 to 100
   int max_iterations = 8;  // of the solver in each round; 1 to 1000
 
@@ -39,8 +39,9 @@ struct FairingResult {
   std::int64_t patches = 0;
   std::int64_t vertices_moved = 0;
   std::int64_t vertices_stopped = 0;  // short of the input
-  std::int64_t patches_left = 0;      // unchanged: no rim to join, or no equations to solve
-  double largest_move = 0;            // in the units of the surface
+  // Unchanged: no rim to join, or nothing found that bends less.
+  std::int64_t patches_left = 0;
+  double largest_move = 0;  // in the units of the surface
   // Integral of (2 H)^2 over the patches with their margins, H the mean curvature; has no unit.
   double bending_before = 0;
   double bending_after = 0;
@@ -62,7 +63,8 @@ struct FairingResult {
 //    Kobbelt: Geometric fairing of irregular meshes for free-form surface design, 2001); planes,
 //    spheres and cylinders are such surfaces. L u stands for the change of 2 H, which is exact
 //    where the principal curvatures are equal. Area and L count rows beyond the last vertex that
-//    moves, so the patch meets its rim with the rim's slope.
+//    moves, so the patch meets its rim with the rim's slope. A round after which the surface bends
+//    more is undone, and the next begins from what a longer membrane makes of it.
 // 3. No vertex comes nearer to the input, anywhere on the straight way from its place to its
 //    target, than about 3/8 of `clearance` (or half of its first distance, where that is less): it
 //    stops before. So none passes through.

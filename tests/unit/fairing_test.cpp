@@ -291,7 +291,6 @@ TEST(Fairing, NoVertexPassesThroughTheInput) {
   add_quad(scene.input, first, first + 1, first + 2, first + 3);
   const NearestTriangle nearest(scene.input);
   const FairingResult result = scene.fair();
-  EXPECT_GT(result.vertices_stopped + 1, 0);
   int above = 0;
   for (std::size_t v = 0; v < result.points.size(); ++v) {
     const Point3& from = scene.surface.points[v];

@@ -73,6 +73,8 @@ void add_arguments(CLI::App& app, RemeshArguments& a) {
   app.add_option("--pull-distance", a.pipeline.options.pull_distance,
                  "What --pull leaves, relative to the longest edge (default: min(1/resolution, "
                  "epsilon) / 40)");
+  app.add_flag("--fair", a.pipeline.options.fair,
+               "Completed patches follow a bending energy, with smooth joints to their rims");
   app.add_option("--faces", a.pipeline.options.faces,
                  "Simplify the surface to so many triangles, where it stays valid (0: not)")
       ->capture_default_str();
@@ -139,6 +141,13 @@ void print_summary(const RemeshResult& result, const RemeshArguments& a, double 
         "the input median {:.3g}, 95 % {:.3g}\n",
         pull.supported, pull.vertices, pull.stopped_early, pull.went_back, pull.offset.median,
         pull.offset.p95);
+  }
+  if (a.options().fair) {
+    const FairReport& fair = result.fair;
+    fmt::print(
+        "fairing: {} patches ({} left as they were), {} vertices, bending {:.3g} to {:.3g}\n",
+        fair.patches, fair.patches_left, fair.vertices_moved, fair.bending_before,
+        fair.bending_after);
   }
   if (a.options().simplifies()) {
     fmt::print(

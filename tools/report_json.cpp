@@ -49,6 +49,18 @@ Json surface_json(const RemeshResult& result, const RemeshOptions& options) {
                        {"rounds", pull.rounds},         {"offset_median", pull.offset.median},
                        {"offset_p95", pull.offset.p95}, {"offset_largest", pull.offset.largest}};
   }
+  if (options.fair) {
+    const FairReport& fair = result.fair;
+    surface["fairing"] = {{"patches", fair.patches},
+                          {"patches_left", fair.patches_left},
+                          {"vertices_moved", fair.vertices_moved},
+                          {"vertices_stopped", fair.vertices_stopped},
+                          {"bending_before", fair.bending_before},
+                          {"bending_after", fair.bending_after},
+                          {"pairs_at_first", fair.pairs_at_first},
+                          {"stopped_early", fair.stopped_early},
+                          {"went_back", fair.went_back}};
+  }
   if (options.simplifies()) {
     const Simplification& simplified = result.simplification;
     const CollapseCounts& counts = simplified.counts;
@@ -83,6 +95,7 @@ Json parameters_json(const RemeshResult& result, const RemeshOptions& options) {
           {"surface", surface_name(options.surface)},
           {"pull", options.pulls()},
           {"pull_distance", result.derived.pull_distance},
+          {"fair", options.fair},
           {"faces", options.faces},
           {"max_error", options.max_error},
           {"thickening", options.thickening},

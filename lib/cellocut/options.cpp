@@ -36,6 +36,7 @@ void RemeshOptions::validate() const {
   require(surface != SurfaceMode::union_ || (thickening && unary),
           "--no-thickening and --no-unary need --surface sdf or cells");
   require(surface != SurfaceMode::cells || !pulls(), "--surface cells cannot be pulled");
+  require(surface != SurfaceMode::cells || !fair, "--surface cells cannot be faired");
   require(!pull_distance || pulls(), "--pull-distance needs --pull");
   require(!pull_distance || (*pull_distance > 0 && *pull_distance <= 1),
           "--pull-distance must be above 0 and at most 1");

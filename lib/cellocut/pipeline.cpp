@@ -106,6 +106,25 @@ TriangleSoup extract_surface(RemeshResult& result, const RemeshOptions& options,
   return surface;
 }
 
+// The supported part of the surface goes to the input, the completed one where it bends least.
+void bring_to_input(const TriangleSoup& input, const RemeshOptions& options, RemeshResult& result,
+                    StageClock& stage, Observer& observer) {
+  const NearestTriangle nearest(input);
+  const double unit = result.frame.unit;
+  if (options.pulls()) {
+    result.pull = stage("pull", [&] {
+      return pull_to_input(result.surface, result.supported, nearest, result.derived.epsilon * unit,
+                           result.derived.pull_distance * unit, observer);
+    });
+  }
+  if (options.fair) {
+    result.fair = stage("fairing", [&] {
+      return fair_surface(result.surface, result.supported, nearest, result.frame.spacing,
+                          result.derived.pull_distance * unit, observer);
+    });
+  }
+}
+
 // Per-vertex values follow the vertices that are left.
 void adopt_simplified(RemeshResult& result) {
   Simplification& simplified = result.simplification;
@@ -204,13 +223,7 @@ RemeshResult remesh(const TriangleSoup& input, const RemeshOptions& options,
   if (result.cut.status == CutStatus::invalid || result.empty_solid()) return result;
   StageClock stage(result.stages, observer);
   result.surface = stage("surface", [&] { return extract_surface(result, options, observer); });
-  if (options.pulls()) {
-    result.pull = stage("pull", [&] {
-      return pull_to_input(result.surface, result.supported, NearestTriangle(input),
-                           result.derived.epsilon * result.frame.unit,
-                           result.derived.pull_distance * result.frame.unit, observer);
-    });
-  }
+  if (options.pulls() || options.fair) bring_to_input(input, options, result, stage, observer);
   if (options.simplifies()) {
     result.simplification = stage("simplification", [&] {
       return simplify_surface(

@@ -17,6 +17,7 @@
 #include "cellocut/mesh/mesh_file.h"
 #include "cellocut/mesh/triangle_soup.h"
 #include "cellocut/proxy/proxy.h"
+#include "cellocut/surface/fair_report.h"
 #include "cellocut/surface/pull.h"
 #include "cellocut/surface/simplification.h"
 #include "cellocut/surface/union_field.h"
@@ -63,6 +64,7 @@ struct RemeshOptions {
   // The format that the surface will be written in: it is judged as a reader will see it.
   MeshFormat output_format = MeshFormat::obj;
 
+  bool fair = false;  // completed patches follow a bending energy; not with `cells`
   // Fewer triangles: a target, and a bound on the Hausdorff distance to the full surface relative
   // to the longest edge. 0: none.
   std::int64_t faces = 0;
@@ -115,6 +117,7 @@ struct RemeshResult {
   LabellingDepartures departures;
   std::vector<std::uint8_t> supported;  // per vertex of the surface: it follows the input
   PullReport pull;
+  FairReport fair;
   Simplification simplification;  // its surface and source have moved to `surface`
   TriangleSoup surface;           // in input units; as the reader of the file will see it
   SurfaceReport surface_report;

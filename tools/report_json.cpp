@@ -43,11 +43,12 @@ Json surface_json(const RemeshResult& result, const RemeshOptions& options) {
   }
   if (options.pulls()) {
     const PullReport& pull = result.pull;
-    surface["pull"] = {{"distance", pull.distance},     {"vertices", pull.vertices},
-                       {"supported", pull.supported},   {"stopped_early", pull.stopped_early},
-                       {"went_back", pull.went_back},   {"pairs_at_first", pull.pairs_at_first},
-                       {"rounds", pull.rounds},         {"offset_median", pull.offset.median},
-                       {"offset_p95", pull.offset.p95}, {"offset_largest", pull.offset.largest}};
+    surface["pull"] = {
+        {"distance", pull.distance},     {"vertices", pull.vertices},
+        {"supported", pull.supported},   {"stopped_early", pull.stopped_early},
+        {"went_back", pull.went_back},   {"bad_faces_at_first", pull.bad_faces_at_first},
+        {"rounds", pull.rounds},         {"offset_median", pull.offset.median},
+        {"offset_p95", pull.offset.p95}, {"offset_largest", pull.offset.largest}};
   }
   if (options.fair) {
     const FairReport& fair = result.fair;
@@ -57,7 +58,7 @@ Json surface_json(const RemeshResult& result, const RemeshOptions& options) {
                           {"vertices_stopped", fair.vertices_stopped},
                           {"bending_before", fair.bending_before},
                           {"bending_after", fair.bending_after},
-                          {"pairs_at_first", fair.pairs_at_first},
+                          {"bad_faces_at_first", fair.bad_faces_at_first},
                           {"stopped_early", fair.stopped_early},
                           {"went_back", fair.went_back}};
   }

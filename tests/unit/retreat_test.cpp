@@ -29,7 +29,7 @@ TEST(Retreat, WhatMeetsNothingArrives) {
   const Retreat moved = move(soup, to);
   EXPECT_EQ(moved.points, to);
   EXPECT_EQ(moved.rounds, 0);
-  EXPECT_EQ(moved.pairs_at_first, 0);
+  EXPECT_EQ(moved.bad_faces_at_first, 0);
 }
 
 TEST(Retreat, WhatWouldBecomeAPointStopsHalfWay) {
@@ -50,7 +50,7 @@ TEST(Retreat, TwoSpheresThatWouldCrossStopBeforeThat) {
   for (std::size_t v = 0; v < first; ++v) to[v][0] += 1;  // 0.5 into the other one
   const Retreat moved = move(soup, to);
   expect_valid(soup, moved);
-  EXPECT_GT(moved.pairs_at_first, 0);
+  EXPECT_GT(moved.bad_faces_at_first, 0);
   EXPECT_GT(moved.rounds, 0);
   for (std::size_t v = 0; v < soup.points.size(); ++v) {
     if (v >= first) {

@@ -18,7 +18,7 @@ FairReport fair_surface(TriangleSoup& surface, const std::vector<std::uint8_t>& 
                     .vertices_stopped = wanted.vertices_stopped,
                     .bending_before = wanted.bending_before,
                     .bending_after = wanted.bending_after,
-                    .pairs_at_first = moved.pairs_at_first};
+                    .bad_faces_at_first = moved.bad_faces_at_first};
   for (const std::uint8_t halvings : moved.halvings) {
     if (halvings == Retreat::kStayed) ++report.went_back;
     if (halvings > 0 && halvings < Retreat::kStayed) ++report.stopped_early;

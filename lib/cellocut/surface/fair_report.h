@@ -17,9 +17,9 @@ struct FairReport {
   std::int64_t vertices_stopped = 0;  // short of the input
   double bending_before = 0;          // integral of (2 H)^2 over the patches
   double bending_after = 0;
-  std::int64_t pairs_at_first = 0;  // intersecting pairs before the retreat
-  std::int64_t stopped_early = 0;   // vertices that the retreat left short of their targets
-  std::int64_t went_back = 0;       // and those it put back
+  std::int64_t bad_faces_at_first = 0;  // that were degenerate or intersected before the retreat
+  std::int64_t stopped_early = 0;       // vertices that the retreat left short of their targets
+  std::int64_t went_back = 0;           // and those it put back
 };
 
 // Moves the completed patches of a valid surface where fair_completed() (fairing.h) wants them, as

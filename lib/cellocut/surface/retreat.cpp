@@ -61,11 +61,17 @@ class Movement {
   }
 
   Retreat run() {
-    Indices bad = first_test();
-    if (bad.empty()) return std::move(result_);
+    const Indices moved = moved_faces();
+    if (moved.empty()) return std::move(result_);
+    // Where most of the mesh moves, one search for all pairs is the quicker way.
+    const bool most = moved.size() > triangles_.size() / 4;
+    Indices bad = most ? test_all() : Indices{};
+    if (most && bad.empty()) return std::move(result_);
     const VertexFaces around(triangles_, from_.size());
     const FloatFrame frame(box_of_ways());
     const BoxTree ways = tree_of_ways(frame);
+    if (!most) bad = test_again(moved, ways, frame);
+    result_.bad_faces_at_first = static_cast<std::int64_t>(bad.size());
     while (!bad.empty()) {
       observer_.check();
       ++result_.rounds;
@@ -80,8 +86,17 @@ class Movement {
     return is_degenerate(result_.points[t[0]], result_.points[t[1]], result_.points[t[2]]);
   }
 
-  // Faces that are degenerate or in an intersecting pair with all displacements in full.
-  Indices first_test() {
+  [[nodiscard]] Indices moved_faces() const {
+    Indices faces;
+    for (std::uint32_t f = 0; f < triangles_.size(); ++f) {
+      const auto moves = [this](std::uint32_t v) { return from_[v] != to_[v]; };
+      if (std::any_of(triangles_[f].begin(), triangles_[f].end(), moves)) faces.push_back(f);
+    }
+    return faces;
+  }
+
+  // Faces that are degenerate or in an intersecting pair.
+  Indices test_all() {
     std::vector<std::uint8_t> takes_part(triangles_.size());
     tbb::parallel_for(std::size_t{0}, triangles_.size(), [&](std::size_t f) {
       takes_part[f] = degenerate(static_cast<std::uint32_t>(f)) ? 0 : 1;
@@ -89,7 +104,6 @@ class Movement {
     const IntersectingPairs pairs =
         find_intersecting_pairs(result_.points, triangles_, takes_part,
                                 std::numeric_limits<std::int32_t>::max(), observer_);
-    result_.pairs_at_first = pairs.count;
     Indices bad;
     for (std::uint32_t f = 0; f < triangles_.size(); ++f) {
       if (takes_part[f] == 0) bad.push_back(f);

@@ -16,7 +16,8 @@ struct Retreat {
 
   std::vector<Point3> points;
   std::vector<std::uint8_t> halvings;  // per vertex: the displacement is 2^-halvings of that asked
-  std::int64_t pairs_at_first = 0;     // intersecting pairs with all displacements in full
+  // Faces that are degenerate or intersect another with all displacements in full.
+  std::int64_t bad_faces_at_first = 0;
   int rounds = 0;
 };
 
@@ -24,7 +25,8 @@ struct Retreat {
 // the displacement of their vertices is halved; after six halvings they and their neighbours are
 // put back for good. The mesh at `from` is valid (no intersecting pair, no degenerate face), every
 // round halves something or puts it back, and what is put back stays: so this ends, and with a
-// valid mesh. After the first round only faces that moved are tested again.
+// valid mesh. Faces none of whose vertices move are only tested against those that do, so where
+// little moves, little is tested.
 //
 // Preconditions: the mesh is valid at `from`; from.size() == to.size(), all finite. The same for
 // any number of threads. O(n log n + rounds * faces that were bad). Errors: Cancelled.

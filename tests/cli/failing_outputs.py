@@ -79,7 +79,7 @@ class FullDisk(ProgramCase):
 
     def test_empty_solid_and_no_room(self):
         self.put("out.json", OLD)
-        run = self.run_program("remesh", "holed.obj", "-o", "out.obj", "--no-unary", *COARSE, "--json",
+        run = self.run_program("remesh", "holed.obj", "-o", "out.obj", "--no-unary", "--surface", "sdf", *COARSE, "--json",
                                "out.json", env=self.shimmed(CELLOCUT_TEST_WRITE_LIMIT="100"))
         self.assert_one_line(run, 6, r"\Acellocut: out\.json: cannot write: No space left")
         self.assertEqual(self.get("out.json"), OLD)

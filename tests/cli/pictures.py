@@ -22,7 +22,7 @@ class LabelledCells(ProgramCase):
         self.assertAlmostEqual(report["plane"]["offset"], 0.35, delta=0.2)
 
     def test_section_of_an_empty_solid(self):
-        self.run_program("remesh", "holed.obj", "-o", "no.obj", "--vtu", "empty.vtu", "--no-unary", *COARSE)
+        self.run_program("remesh", "holed.obj", "-o", "no.obj", "--vtu", "empty.vtu", "--no-unary", "--surface", "sdf", *COARSE)
         self.succeed("section", "empty.vtu", "-o", "cut.png")
 
     def refuse(self, code, pattern, *arguments):

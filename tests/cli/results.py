@@ -36,11 +36,11 @@ class Remesh(ProgramCase):
 
     def test_same_bytes_for_any_number_of_threads(self):
         self.put("two.obj", obj_text(join(HOLED_BOX, box((0.3, 0.2, 0.1), (1.4, 0.5, 0.9)))))
-        for surface in ("sdf", "cells"):
+        for surface in (("union", "--fair", "--faces", "2000"), ("union", "--no-pull"), ("sdf",), ("cells",)):
             seen = set()
             for threads in ("1", "2", "8"):
                 cells = ["--vtu", "out.vtu"] if HAS_VTU else []
-                self.succeed("remesh", "two.obj", "-o", "out.obj", "--quiet", "--surface", surface, "-R",
+                self.succeed("remesh", "two.obj", "-o", "out.obj", "--quiet", "--surface", *surface, "-R",
                              "32", "--threads", threads, *cells)
                 seen.add((self.get("out.obj"), self.get("out.vtu") if HAS_VTU else b""))
             self.assertEqual(len(seen), 1, surface)

@@ -142,13 +142,37 @@ class Arguments(ProgramCase):
         self.fail_with(2, "bogus|subcommand", "bogus", outputs=())
 
 
+class SurfaceOptions(ProgramCase):
+    def test_what_does_not_go_together(self):
+        for wrong, words in (((("--no-unary",)), "--surface sdf or cells"),
+                             ((("--no-thickening",)), "--surface sdf or cells"),
+                             ((("--surface", "cells", "--pull")), "cells cannot be pulled"),
+                             ((("--surface", "cells", "--fair")), "cells cannot be faired"),
+                             ((("--surface", "cells", "--faces", "100")), "cells cannot be simplified"),
+                             ((("--no-pull", "--pull-distance", "0.001")), "needs --pull"),
+                             ((("--pull-distance", "0.5")), "at most epsilon"),
+                             ((("--pull-distance", "0")), "--pull-distance"),
+                             ((("--faces", "3")), "at least 4"),
+                             ((("--max-error", "-1")), "--max-error")):
+            self.fail_with(2, words, "remesh", "holed.obj", "-o", "out.obj", *COARSE, *wrong)
+
+    def test_faces_out_of_reach_are_said(self):
+        run = self.succeed("remesh", "holed.obj", "-o", "out.obj", *COARSE, "--faces", "4", "--max-error", "1e-4",
+                           "--json", "r.json")
+        report = json.loads(self.get("r.json"))["surface"]["simplification"]
+        self.assertFalse(report["reached"])
+        self.assertNotEqual(report["stop"], "")
+        self.assertIn(b"stopped early", run.stdout)
+        self.succeed("check", "out.obj", "--quiet")
+
+
 class Guarantees(ProgramCase):
     def test_empty_solid(self):
         for name in ("out.obj", "out.json", "kept.obj"):
             self.put(name, OLD)
         wanted = ["--vtu", "out.vtu"] if HAS_VTU else []
-        run = self.run_program("remesh", "holed.obj", "-o", "out.obj", "--no-unary", *COARSE, *wanted,
-                               "--json", "out.json", "--keep-invalid", "kept.obj")
+        run = self.run_program("remesh", "holed.obj", "-o", "out.obj", "--no-unary", "--surface", "sdf", *COARSE,
+                               *wanted, "--json", "out.json", "--keep-invalid", "kept.obj")
         self.assert_one_line(run, 4, r"\Acellocut: holed\.obj: no cell is interior")
         self.assertEqual(self.get("out.obj"), OLD)
         self.assertEqual(self.get("kept.obj"), OLD)  # there is no surface to keep
@@ -163,13 +187,13 @@ class Guarantees(ProgramCase):
 
     def test_flood_signed_distance_leaves_a_solid_or_says_that_there_is_none(self):
         self.put("closed.obj", obj_text(BOXES_AT_AN_EDGE))
-        self.succeed("remesh", "closed.obj", "-o", "out.obj", "-R", "16", "--no-thickening", "--quiet")
+        flood = ("-R", "16", "--no-thickening", "--surface", "sdf")
+        self.succeed("remesh", "closed.obj", "-o", "out.obj", *flood, "--quiet")
         self.succeed("check", "out.obj", "--quiet")
         # Through the hole everything is outside: not even a cell is there.
         self.put("out.obj", OLD)
         cells = ["--vtu", "out.vtu"] if HAS_VTU else []
-        run = self.run_program("remesh", "holed.obj", "-o", "out.obj", "-R", "16", "--no-thickening",
-                               "--json", "out.json", *cells)
+        run = self.run_program("remesh", "holed.obj", "-o", "out.obj", *flood, "--json", "out.json", *cells)
         self.assert_one_line(run, 4, r"\Acellocut: holed\.obj: no cell is interior")
         self.assertEqual(self.get("out.obj"), OLD)
         report = json.loads(self.get("out.json"))

@@ -1,7 +1,7 @@
 // The sweep over real defective meshes: every mesh, both backends, all exact solvers on the same
 // instance.
 //
-//   cellocut_sweep FOLDER [--resolution 256] [--only NAME[,NAME...]] [--surface sdf|cells]
+//   cellocut_sweep FOLDER [--resolution 256] [--only NAME[,NAME...]] [--surface union|sdf|cells]
 //
 // Prints a table and `N passed, N failed`; exit 1 where a mesh fails. A mesh passes where, on every
 // backend, all exact solvers give the same value and bit for bit the same canonical labellings, the
@@ -43,13 +43,16 @@ Arguments parse(int argc, char** argv) {
     } else if (word == "--only" && has_value) {
       a.only = std::string(",") + argv[++i] + ",";
     } else if (word == "--surface" && has_value) {
-      a.options.surface = std::string(argv[++i]) == "cells" ? SurfaceMode::cells : SurfaceMode::sdf;
+      const std::string name = argv[++i];
+      a.options.surface = name == "cells" ? SurfaceMode::cells
+                          : name == "sdf" ? SurfaceMode::sdf
+                                          : SurfaceMode::union_;
     } else if (a.folder.empty() && word.rfind("--", 0) != 0) {
       a.folder = word;
     } else {
       throw UsageError(
           "usage: cellocut_sweep FOLDER [--resolution R] [--only NAME,...] "
-          "[--surface sdf|cells]");
+          "[--surface union|sdf|cells]");
     }
   }
   if (a.folder.empty()) throw UsageError("name the folder of the meshes");

@@ -47,6 +47,31 @@ TEST_P(DefectiveMesh, IsSoundInEveryMode) {
   }
 }
 
+TEST_P(DefectiveMesh, IsSoundWithEveryTreatmentOfTheSurface) {
+  for (const SurfaceMode mode : {SurfaceMode::union_, SurfaceMode::sdf}) {
+    for (const bool pull : {false, true}) {
+      RemeshOptions options = at_resolution(48, mode);
+      options.lambda_fill = {3, 1};
+      options.pull = pull;
+      options.fair = true;
+      const RemeshResult full = run(GetParam().soup, options);
+      expect_sound(full);
+      EXPECT_EQ(full.supported.size(), full.surface.points.size());
+      options.faces = full.surface_report.triangles / 10;
+      const RemeshResult light = run(GetParam().soup, options);
+      expect_sound(light);
+      EXPECT_EQ(light.supported.size(), light.surface.points.size());
+      EXPECT_EQ(light.surface_report.euler, full.surface_report.euler);
+      EXPECT_EQ(light.surface_report.components.size(), full.surface_report.components.size());
+      if (light.simplification.reached) {
+        EXPECT_LE(light.surface_report.triangles, options.faces);
+      } else {
+        EXPECT_FALSE(light.simplification.stop.empty());
+      }
+    }
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Pipeline, DefectiveMesh, ::testing::ValuesIn(test::all_defective_meshes()),
                          [](const ::testing::TestParamInfo<test::NamedSoup>& mesh) {
                            return mesh.param.name;

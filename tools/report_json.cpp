@@ -69,7 +69,9 @@ Json parameters_json(const RemeshResult& result, const RemeshOptions& options) {
           {"pull_distance", result.derived.pull_distance},
           {"thickening", options.thickening},
           {"unary", options.unary},
-          {"min_component", options.min_component}};
+          {"min_component", options.min_component},
+          {"provenance", options.provenance},
+          {"transfer_colour", options.transfer_colour}};
 }
 
 std::int64_t count_interior(const CellLabels& labels) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cellocut/base/errors.h"
 #include "cellocut/base/stopwatch.h"
 #include "cellocut/field/distance_field.h"
 #include "cellocut/field/flood_sign.h"
@@ -106,6 +107,25 @@ TriangleSoup extract_surface(RemeshResult& result, const RemeshOptions& options,
   return surface;
 }
 
+// The surface as a reader of the file will see it, and `supported` with it: a vertex that stands
+// for several is supported if all of them are.
+void adopt_read_back(RemeshResult& result, MeshFormat format) {
+  TriangleSoup seen = as_read_back(result.surface, format);
+  if (seen.points.size() != result.surface.points.size() ||
+      seen.triangles != result.surface.triangles) {
+    std::vector<std::uint8_t> supported(seen.points.size(), 1);
+    for (std::size_t f = 0; f < seen.triangles.size(); ++f) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        if (result.supported[result.surface.triangles[f][k]] == 0) {
+          supported[seen.triangles[f][k]] = 0;
+        }
+      }
+    }
+    result.supported = std::move(supported);
+  }
+  result.surface = std::move(seen);
+}
+
 }  // namespace
 
 bool RemeshResult::empty_solid() const {
@@ -184,6 +204,9 @@ void minimise_cut(RemeshResult& result, const RemeshOptions& options, CutSolver&
 
 RemeshResult remesh(const TriangleSoup& input, const RemeshOptions& options,
                     const Tetrahedralizer& tetrahedralizer, CutSolver& solver, Observer& observer) {
+  if (options.transfer_colour && input.colours.empty()) {
+    throw InputError("the mesh has no colours at its vertices that could be transferred");
+  }
   RemeshResult result = pose_cut(input, options, tetrahedralizer, observer);
   if (result.proxy.mesh.empty()) return result;
 
@@ -192,14 +215,27 @@ RemeshResult remesh(const TriangleSoup& input, const RemeshOptions& options,
   if (result.cut.status == CutStatus::invalid || result.empty_solid()) return result;
   StageClock stage(result.stages, observer);
   result.surface = stage("surface", [&] { return extract_surface(result, options, observer); });
+  const bool traces = options.provenance || options.transfer_colour;
+  std::optional<NearestTriangle> nearest;  // both stages use it, the first one builds it
   if (options.pulls()) {
     result.pull = stage("pull", [&] {
-      return pull_to_input(result.surface, result.supported, NearestTriangle(input),
+      nearest.emplace(input);
+      return pull_to_input(result.surface, result.supported, *nearest,
                            result.derived.epsilon * result.frame.unit,
                            result.derived.pull_distance * result.frame.unit, observer);
     });
   }
-  result.surface = as_read_back(std::move(result.surface), options.output_format);
+  adopt_read_back(result, options.output_format);
+  if (traces) {
+    result.provenance = stage("provenance", [&] {
+      if (!nearest) nearest.emplace(input);
+      return trace_provenance(result.surface, result.supported, input, *nearest,
+                              options.transfer_colour, observer);
+    });
+    result.surface.colours = result.provenance.colours;
+    if (!options.provenance) result.provenance = {};
+  }
+  nearest.reset();  // its memory, before the check needs some
   result.surface_report = stage("validity", [&] {
     return inspect_surface(result.surface, SurfaceCheckOptions{.observer = &observer});
   });

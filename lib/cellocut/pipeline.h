@@ -17,6 +17,7 @@
 #include "cellocut/mesh/mesh_file.h"
 #include "cellocut/mesh/triangle_soup.h"
 #include "cellocut/proxy/proxy.h"
+#include "cellocut/surface/provenance.h"
 #include "cellocut/surface/pull.h"
 #include "cellocut/surface/union_field.h"
 #include "cellocut/validity/surface_report.h"
@@ -25,8 +26,8 @@ namespace cellocut {
 
 enum class SurfaceMode {
   union_,  // phi where the surface is supported, the absorbed cells where it was completed
-  sdf,   // signed distance of the interface, marching cubes (the paper's)
-  cells  // the facets of the interface, made manifold by splitting
+  sdf,     // signed distance of the interface, marching cubes (the paper's)
+  cells    // the facets of the interface, made manifold by splitting
 };
 
 // Minimum cuts are not unique; see cut/cut_solver.h.
@@ -48,8 +49,8 @@ struct RemeshOptions {
   // Whether supported vertices are pulled to the input; by default with `union_` alone, never with
   // `cells`.
   std::optional<bool> pull;
-  // The distance from the input that pulled vertices keep, relative to the longest edge; above 0, at
-  // most epsilon. Default min(1/R, epsilon) / 40.
+  // The distance from the input that pulled vertices keep, relative to the longest edge; above 0,
+  // at most epsilon. Default min(1/R, epsilon) / 40.
   std::optional<double> pull_distance;
   bool thickening = true;  // false: phi is the flood-signed distance, no offset (ablation)
   bool unary = true;       // false: L* only sets weights, nothing is anchored interior (ablation)
@@ -59,6 +60,9 @@ struct RemeshOptions {
   // When a relaxation stops; it is always completed to a flow, without which there is no
   // certificate.
   RelaxationOptions relaxation{};
+  bool provenance = false;  // whether result.provenance is made
+  // Whether the surface gets the colours of the input's vertices; with provenance or without.
+  bool transfer_colour = false;
   // The format that the surface will be written in: it is judged as a reader will see it.
   MeshFormat output_format = MeshFormat::obj;
 
@@ -106,9 +110,14 @@ struct RemeshResult {
   CertificateReport certificate;
   // Where the solid of `union_` departs from the labelling; all 0 in other modes.
   LabellingDepartures departures;
-  std::vector<std::uint8_t> supported;  // per vertex of the surface: it follows the input
+  // Per vertex of the surface: it follows the input. Where the output's format merges vertices: all
+  // of those did.
+  std::vector<std::uint8_t> supported;
   PullReport pull;
-  TriangleSoup surface;  // in input units; as the reader of the file will see it
+  // In input units, as the reader of the file will see it; with colours where they were asked for,
+  // whether or not the format holds them.
+  TriangleSoup surface;
+  Provenance provenance;  // of the surface; empty unless asked for
   SurfaceReport surface_report;
   std::int64_t dropped_components = 0;
   std::vector<StageTime> stages;
@@ -135,7 +144,8 @@ void minimise_cut(RemeshResult& result, const RemeshOptions& options, CutSolver&
 // Runs all stages. Deterministic: the same bits for any number of threads.
 // A cut that fails its certificate or a surface that fails its check is reported in the result, not
 // thrown; later stages are skipped where an earlier one leaves nothing to work on (an empty solid).
-// Errors: UsageError (options), InputError (a mesh without extent), LimitError, Cancelled.
+// Errors: UsageError (options), InputError (a mesh without extent, or without the colours that are
+// to be transferred), LimitError, Cancelled.
 RemeshResult remesh(const TriangleSoup& input, const RemeshOptions& options,
                     const Tetrahedralizer& tetrahedralizer, CutSolver& solver,
                     Observer& observer = silent_observer());

@@ -31,7 +31,7 @@ struct MakeFieldArray {
 }  // namespace
 
 vtkSmartPointer<vtkPoints> borrow_points(const std::vector<Point3>& points) {
-  const auto result = vtkSmartPointer<vtkPoints>::New();
+  auto result = vtkSmartPointer<vtkPoints>::New();
   result->SetDataTypeToDouble();
   const vtkSmartPointer<vtkDataArray> coordinates =
       borrow<vtkDoubleArray>(points.empty() ? nullptr : points.front().data(), 3 * points.size());
@@ -42,7 +42,7 @@ vtkSmartPointer<vtkPoints> borrow_points(const std::vector<Point3>& points) {
 }
 
 vtkSmartPointer<vtkAbstractArray> make_field_array(const FieldValue& field) {
-  const vtkSmartPointer<vtkAbstractArray> array = std::visit(MakeFieldArray{}, field.value);
+  vtkSmartPointer<vtkAbstractArray> array = std::visit(MakeFieldArray{}, field.value);
   array->SetName(field.name.c_str());
   return array;
 }

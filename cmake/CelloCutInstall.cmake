@@ -12,7 +12,7 @@ if(NOT CELLOCUT_SOLVERS_ONLY)
     cellocut/validity/surface_report.h
     backends/backends.h)
   if(CELLOCUT_WITH_VIZ)
-    list(APPEND _cellocut_entry_headers viz/vtu_file.h viz/section.h)
+    list(APPEND _cellocut_entry_headers viz/vtp_file.h viz/vtu_file.h viz/section.h)
   endif()
 endif()
 

@@ -17,7 +17,9 @@
 #include "tools/session.h"
 #include "tools/solver_arguments.h"
 #ifdef CELLOCUT_WITH_VIZ
+#include "cellocut_version.h"
 #include "tools/labelled_cells.h"
+#include "viz/vtp_file.h"
 #endif
 
 namespace cellocut::tools {
@@ -35,6 +37,8 @@ struct RemeshArguments {
   std::string cut = "largest";
   std::string surface = "union";
   std::string vtu;
+  std::string vtp;
+  bool provenance = false;  // in the output file
   std::string keep_invalid;
   std::string problem;
   PipelineArguments pipeline;
@@ -89,10 +93,39 @@ void add_arguments(CLI::App& app, RemeshArguments& a) {
   app.add_option("--keep-invalid", a.keep_invalid,
                  "Where a surface goes that fails its check (it never replaces the output)");
   app.add_option("--problem", a.problem, "The cut problem: .max (DIMACS) or .bbk");
+  app.add_flag("--provenance", a.provenance,
+               "In a PLY output, for each vertex: nearest_face of the input, distance to it (input "
+               "units), supported (1) or completed (0)");
+  app.add_flag("--transfer-colour", a.pipeline.options.transfer_colour,
+               "Give the surface the colours of the input's vertices, from the nearest points");
 #ifdef CELLOCUT_WITH_VIZ
+  app.add_option("--vtp", a.vtp, "The surface with its provenance for ParaView");
   app.add_option("--vtu", a.vtu, "Labelled tetrahedra for ParaView");
 #endif
   a.common.add_to(app);
+}
+
+#ifdef CELLOCUT_WITH_VIZ
+constexpr const char* kOrVtp = " or add --vtp FILE";
+#else
+constexpr const char* kOrVtp = "";
+#endif
+
+bool is_ply(MeshFormat format) {
+  return format == MeshFormat::ply || format == MeshFormat::ply_ascii;
+}
+
+// That some output has room for what is asked for.
+void check_vertex_values(const RemeshArguments& a) {
+  const MeshFormat format = a.options().output_format;
+  if (!a.vtp.empty()) return;
+  if (a.provenance && !is_ply(format)) {
+    throw UsageError(a.output + ": --provenance has no place in this format; write .ply" + kOrVtp);
+  }
+  if (a.options().transfer_colour && !is_ply(format) && format != MeshFormat::obj) {
+    throw UsageError(
+        a.output + ": --transfer-colour has no place in this format; write .ply or .obj" + kOrVtp);
+  }
 }
 
 void complete_options(RemeshArguments& a) {
@@ -109,17 +142,21 @@ void complete_options(RemeshArguments& a) {
                      "or --output-format");
   }
   a.options().output_format = *format;
+  a.options().provenance = a.provenance || !a.vtp.empty();
+  check_vertex_values(a);
   a.options().validate();
   a.options().relaxation.validate();
   if (!a.problem.empty() && !problem_format_of_path(a.problem)) {
     throw UsageError(a.problem + ": the cut problem is written as .max or .bbk");
   }
-  require_writable({a.output, a.vtu, a.common.json, a.keep_invalid, a.problem});
+  require_writable({a.output, a.vtu, a.vtp, a.common.json, a.keep_invalid, a.problem});
 }
 
 void print_summary(const RemeshResult& result, const RemeshArguments& a, double read_seconds,
                    double write_seconds) {
-  if (a.common.quiet || a.output == "-" || a.common.json == "-" || a.vtu == "-") return;
+  if (a.common.quiet || a.output == "-" || a.common.json == "-" || a.vtu == "-" || a.vtp == "-") {
+    return;
+  }
   fmt::print("{:<20} {:>9}\n", "stage", "seconds");
   double total = read_seconds + write_seconds;
   fmt::print("{:<20} {:>9.3f}\n", "read", read_seconds);
@@ -209,6 +246,26 @@ Verdict judge(const RemeshResult& result, const RemeshArguments& a) {
   return {};
 }
 
+// The surface that passed its check, in every file that was asked for.
+void write_surface(const RemeshResult& result, const RemeshArguments& a) {
+  const std::vector<VertexAttribute> attributes =
+      a.options().provenance ? result.provenance.attributes() : std::vector<VertexAttribute>();
+#ifdef CELLOCUT_WITH_VIZ
+  if (!a.vtp.empty()) {
+    const std::vector<viz::FieldValue> fields{
+        {"cellocut_version", std::string(kCellocutVersion)},
+        {"legend_supported", std::string("1 follows the input, 0 completed")}};
+    write_text(a.vtp, viz::encode_vtp(result.surface, attributes, fields));
+  }
+#endif
+  const MeshFormat format = a.options().output_format;
+  if (a.provenance && is_ply(format)) {
+    write_mesh(result.surface, a.output, format, attributes);
+  } else {
+    write_mesh(result.surface, a.output, format);
+  }
+}
+
 int run_remesh(RemeshArguments& a) {
   complete_options(a);
   const std::unique_ptr<Tetrahedralizer> tetrahedralizer = backends::make(a.backend);
@@ -233,7 +290,7 @@ int run_remesh(RemeshArguments& a) {
   if (!a.problem.empty() && !result.graph.decided.empty()) {
     write_problem(result.graph.problem, a.problem, *problem_format_of_path(a.problem));
   }
-  if (code == kDone) write_mesh(result.surface, a.output, a.options().output_format);
+  if (code == kDone) write_surface(result, a);
   if (code != kDone && !a.keep_invalid.empty() && !result.surface.empty()) {
     write_mesh(result.surface, a.keep_invalid,
                format_of_path(a.keep_invalid).value_or(MeshFormat::obj));

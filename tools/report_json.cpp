@@ -101,7 +101,9 @@ Json parameters_json(const RemeshResult& result, const RemeshOptions& options) {
           {"max_error", options.max_error},
           {"thickening", options.thickening},
           {"unary", options.unary},
-          {"min_component", options.min_component}};
+          {"min_component", options.min_component},
+          {"provenance", options.provenance},
+          {"transfer_colour", options.transfer_colour}};
 }
 
 std::int64_t count_interior(const CellLabels& labels) {

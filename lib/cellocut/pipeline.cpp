@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
+#include "cellocut/base/errors.h"
 #include "cellocut/base/stopwatch.h"
 #include "cellocut/field/distance_field.h"
 #include "cellocut/field/flood_sign.h"
@@ -106,25 +108,6 @@ TriangleSoup extract_surface(RemeshResult& result, const RemeshOptions& options,
   return surface;
 }
 
-// The supported part of the surface goes to the input, the completed one where it bends least.
-void bring_to_input(const TriangleSoup& input, const RemeshOptions& options, RemeshResult& result,
-                    StageClock& stage, Observer& observer) {
-  const NearestTriangle nearest(input);
-  const double unit = result.frame.unit;
-  if (options.pulls()) {
-    result.pull = stage("pull", [&] {
-      return pull_to_input(result.surface, result.supported, nearest, result.derived.epsilon * unit,
-                           result.derived.pull_distance * unit, observer);
-    });
-  }
-  if (options.fair) {
-    result.fair = stage("fairing", [&] {
-      return fair_surface(result.surface, result.supported, nearest, result.frame.spacing,
-                          result.derived.pull_distance * unit, observer);
-    });
-  }
-}
-
 // Per-vertex values follow the vertices that are left.
 void adopt_simplified(RemeshResult& result) {
   Simplification& simplified = result.simplification;
@@ -135,6 +118,67 @@ void adopt_simplified(RemeshResult& result) {
   result.surface = std::move(simplified.surface);
   simplified.surface = {};
   simplified.source = {};
+}
+
+// The surface as a reader of the file will see it, and `supported` with it: a vertex that stands
+// for several is supported if all of them are.
+void adopt_read_back(RemeshResult& result, MeshFormat format) {
+  TriangleSoup seen = as_read_back(result.surface, format);
+  if (seen.points.size() != result.surface.points.size() ||
+      seen.triangles != result.surface.triangles) {
+    std::vector<std::uint8_t> supported(seen.points.size(), 1);
+    for (std::size_t f = 0; f < seen.triangles.size(); ++f) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        if (result.supported[result.surface.triangles[f][k]] == 0) {
+          supported[seen.triangles[f][k]] = 0;
+        }
+      }
+    }
+    result.supported = std::move(supported);
+  }
+  result.surface = std::move(seen);
+}
+
+// What is done to the extracted surface: the supported part goes to the input, the completed one
+// where it bends least; then fewer triangles, and where each vertex comes from.
+void treat_surface(const TriangleSoup& input, const RemeshOptions& options, RemeshResult& result,
+                   StageClock& stage, Observer& observer) {
+  const double unit = result.frame.unit;
+  std::optional<NearestTriangle> nearest;  // built by the first stage that uses it
+  const auto nearest_point = [&]() -> const NearestTriangle& {
+    if (!nearest) nearest.emplace(input);
+    return *nearest;
+  };
+  if (options.pulls()) {
+    result.pull = stage("pull", [&] {
+      return pull_to_input(result.surface, result.supported, nearest_point(),
+                           result.derived.epsilon * unit, result.derived.pull_distance * unit,
+                           observer);
+    });
+  }
+  if (options.fair) {
+    result.fair = stage("fairing", [&] {
+      return fair_surface(result.surface, result.supported, nearest_point(), result.frame.spacing,
+                          result.derived.pull_distance * unit, observer);
+    });
+  }
+  if (options.simplifies()) {
+    result.simplification = stage("simplification", [&] {
+      return simplify_surface(result.surface,
+                              {.faces = options.faces, .max_error = options.max_error * unit},
+                              observer);
+    });
+    adopt_simplified(result);
+  }
+  adopt_read_back(result, options.output_format);
+  if (options.provenance || options.transfer_colour) {
+    result.provenance = stage("provenance", [&] {
+      return trace_provenance(result.surface, result.supported, input, nearest_point(),
+                              options.transfer_colour, observer);
+    });
+    result.surface.colours = result.provenance.colours;
+    if (!options.provenance) result.provenance = {};
+  }
 }
 
 }  // namespace
@@ -215,6 +259,9 @@ void minimise_cut(RemeshResult& result, const RemeshOptions& options, CutSolver&
 
 RemeshResult remesh(const TriangleSoup& input, const RemeshOptions& options,
                     const Tetrahedralizer& tetrahedralizer, CutSolver& solver, Observer& observer) {
+  if (options.transfer_colour && input.colours.empty()) {
+    throw InputError("the mesh has no colours at its vertices that could be transferred");
+  }
   RemeshResult result = pose_cut(input, options, tetrahedralizer, observer);
   if (result.proxy.mesh.empty()) return result;
 
@@ -223,16 +270,7 @@ RemeshResult remesh(const TriangleSoup& input, const RemeshOptions& options,
   if (result.cut.status == CutStatus::invalid || result.empty_solid()) return result;
   StageClock stage(result.stages, observer);
   result.surface = stage("surface", [&] { return extract_surface(result, options, observer); });
-  if (options.pulls() || options.fair) bring_to_input(input, options, result, stage, observer);
-  if (options.simplifies()) {
-    result.simplification = stage("simplification", [&] {
-      return simplify_surface(
-          result.surface,
-          {.faces = options.faces, .max_error = options.max_error * result.frame.unit}, observer);
-    });
-    adopt_simplified(result);
-  }
-  result.surface = as_read_back(std::move(result.surface), options.output_format);
+  treat_surface(input, options, result, stage, observer);
   result.surface_report = stage("validity", [&] {
     return inspect_surface(result.surface, SurfaceCheckOptions{.observer = &observer});
   });

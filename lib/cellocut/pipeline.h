@@ -18,6 +18,7 @@
 #include "cellocut/mesh/triangle_soup.h"
 #include "cellocut/proxy/proxy.h"
 #include "cellocut/surface/fair_report.h"
+#include "cellocut/surface/provenance.h"
 #include "cellocut/surface/pull.h"
 #include "cellocut/surface/simplification.h"
 #include "cellocut/surface/union_field.h"
@@ -61,6 +62,9 @@ struct RemeshOptions {
   // When a relaxation stops; it is always completed to a flow, without which there is no
   // certificate.
   RelaxationOptions relaxation{};
+  bool provenance = false;  // whether result.provenance is made
+  // Whether the surface gets the colours of the input's vertices; with provenance or without.
+  bool transfer_colour = false;
   // The format that the surface will be written in: it is judged as a reader will see it.
   MeshFormat output_format = MeshFormat::obj;
 
@@ -115,11 +119,16 @@ struct RemeshResult {
   CertificateReport certificate;
   // Where the solid of `union_` departs from the labelling; all 0 in other modes.
   LabellingDepartures departures;
-  std::vector<std::uint8_t> supported;  // per vertex of the surface: it follows the input
+  // Per vertex of the surface: it follows the input. Where the output's format merges vertices: all
+  // of those did.
+  std::vector<std::uint8_t> supported;
   PullReport pull;
   FairReport fair;
   Simplification simplification;  // its surface and source have moved to `surface`
-  TriangleSoup surface;           // in input units; as the reader of the file will see it
+  // In input units, as the reader of the file will see it; with colours where they were asked for,
+  // whether or not the format holds them.
+  TriangleSoup surface;
+  Provenance provenance;  // of the surface; empty unless asked for
   SurfaceReport surface_report;
   std::int64_t dropped_components = 0;
   std::vector<StageTime> stages;
@@ -146,7 +155,8 @@ void minimise_cut(RemeshResult& result, const RemeshOptions& options, CutSolver&
 // Runs all stages. Deterministic: the same bits for any number of threads.
 // A cut that fails its certificate or a surface that fails its check is reported in the result, not
 // thrown; later stages are skipped where an earlier one leaves nothing to work on (an empty solid).
-// Errors: UsageError (options), InputError (a mesh without extent), LimitError, Cancelled.
+// Errors: UsageError (options), InputError (a mesh without extent, or without the colours that are
+// to be transferred), LimitError, Cancelled.
 RemeshResult remesh(const TriangleSoup& input, const RemeshOptions& options,
                     const Tetrahedralizer& tetrahedralizer, CutSolver& solver,
                     Observer& observer = silent_observer());

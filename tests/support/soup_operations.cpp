@@ -21,6 +21,7 @@ void shuffle(Range& range, std::uint64_t seed) {
 
 void append(TriangleSoup& whole, const TriangleSoup& part) {
   const auto offset = static_cast<std::uint32_t>(whole.points.size());
+  whole.colours.clear();  // the parts may differ in having any
   whole.points.insert(whole.points.end(), part.points.begin(), part.points.end());
   for (const Triangle& t : part.triangles) {
     whole.triangles.push_back({t[0] + offset, t[1] + offset, t[2] + offset});

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -25,12 +26,16 @@ void append_number(std::string& bytes, Number value) {
   bytes.append(digits.data(), result.ptr);
 }
 
-void append_point(std::string& bytes, const char* prefix, const Point3& point) {
+void append_coordinates(std::string& bytes, const char* prefix, const Point3& point) {
   bytes += prefix;
   for (int axis = 0; axis < 3; ++axis) {
     if (axis > 0) bytes += ' ';
     append_number(bytes, point[axis]);
   }
+}
+
+void append_point(std::string& bytes, const char* prefix, const Point3& point) {
+  append_coordinates(bytes, prefix, point);
   bytes += '\n';
 }
 
@@ -76,9 +81,21 @@ void append_triangles(std::string& bytes, const char* prefix, const TriangleSoup
   });
 }
 
+// 0 to 1; any four decimals would read back as the same byte.
+void append_obj_colour(std::string& bytes, const Rgb& colour) {
+  for (const std::uint8_t component : colour) {
+    bytes += ' ';
+    append_number(bytes, static_cast<float>(component) / 255.0F);
+  }
+}
+
 std::string encode_obj(const TriangleSoup& mesh) {
   std::string bytes;
-  append_points(bytes, "v ", mesh);
+  append_all(bytes, mesh.points.size(), [&](std::string& chunk, std::size_t i) {
+    append_coordinates(chunk, "v ", mesh.points[i]);
+    if (!mesh.colours.empty()) append_obj_colour(chunk, mesh.colours[i]);
+    chunk += '\n';
+  });
   append_triangles(bytes, "f ", mesh, 1);
   return bytes;
 }
@@ -91,28 +108,73 @@ std::string encode_off(const TriangleSoup& mesh) {
   return bytes;
 }
 
-std::string ply_header(const TriangleSoup& mesh, const char* encoding) {
+// A byte as a number: to_chars takes none that may be a character.
+int widened(std::uint8_t value) { return value; }
+int widened(std::int32_t value) { return value; }
+double widened(double value) { return value; }
+
+using Attributes = std::span<const VertexAttribute>;
+
+struct PlyTypeName {
+  const char* operator()(const std::vector<std::uint8_t>& /*values*/) const { return "uchar"; }
+  const char* operator()(const std::vector<std::int32_t>& /*values*/) const { return "int"; }
+  const char* operator()(const std::vector<double>& /*values*/) const { return "double"; }
+};
+
+std::string vertex_properties(const TriangleSoup& mesh, Attributes attributes) {
+  std::string text = "property double x\nproperty double y\nproperty double z\n";
+  if (!mesh.colours.empty()) {
+    text += "property uchar red\nproperty uchar green\nproperty uchar blue\n";
+  }
+  for (const VertexAttribute& attribute : attributes) {
+    text.append("property ").append(std::visit(PlyTypeName{}, attribute.values));
+    text.append(" ").append(attribute.name).append("\n");
+  }
+  return text;
+}
+
+std::string ply_header(const TriangleSoup& mesh, Attributes attributes, const char* encoding) {
   // `int` is what readers expect; `uint` only where it is needed.
   const bool large = mesh.points.size() > std::size_t{std::numeric_limits<std::int32_t>::max()};
   return std::string("ply\nformat ") + encoding + " 1.0\nelement vertex " +
-         std::to_string(mesh.points.size()) +
-         "\nproperty double x\nproperty double y\nproperty double z\nelement face " +
-         std::to_string(mesh.triangles.size()) + "\nproperty list uchar " +
+         std::to_string(mesh.points.size()) + "\n" + vertex_properties(mesh, attributes) +
+         "element face " + std::to_string(mesh.triangles.size()) + "\nproperty list uchar " +
          (large ? "uint" : "int") + " vertex_indices\nend_header\n";
 }
 
-std::string encode_ply_ascii(const TriangleSoup& mesh) {
-  std::string bytes = ply_header(mesh, "ascii");
-  append_points(bytes, "", mesh);
+std::string encode_ply_ascii(const TriangleSoup& mesh, Attributes attributes) {
+  std::string bytes = ply_header(mesh, attributes, "ascii");
+  append_all(bytes, mesh.points.size(), [&](std::string& chunk, std::size_t i) {
+    append_coordinates(chunk, "", mesh.points[i]);
+    const auto append_value = [&chunk](auto value) {
+      chunk += ' ';
+      append_number(chunk, value);
+    };
+    if (!mesh.colours.empty()) {
+      for (const std::uint8_t component : mesh.colours[i]) append_value(int{component});
+    }
+    for (const VertexAttribute& attribute : attributes) {
+      std::visit([&](const auto& values) { append_value(widened(values[i])); }, attribute.values);
+    }
+    chunk += '\n';
+  });
   append_triangles(bytes, "3 ", mesh, 0);
   return bytes;
 }
 
-std::string encode_ply(const TriangleSoup& mesh) {
-  std::string bytes = ply_header(mesh, "binary_little_endian");
-  bytes.reserve(bytes.size() + 24 * mesh.points.size() + 13 * mesh.triangles.size());
-  for (const Point3& point : mesh.points) {
-    for (const double coordinate : point) append_little_endian(bytes, coordinate);
+std::string encode_ply(const TriangleSoup& mesh, Attributes attributes) {
+  std::string bytes = ply_header(mesh, attributes, "binary_little_endian");
+  bytes.reserve(bytes.size() + (27 + 8 * attributes.size()) * mesh.points.size() +
+                13 * mesh.triangles.size());
+  for (std::size_t i = 0; i < mesh.points.size(); ++i) {
+    for (const double coordinate : mesh.points[i]) append_little_endian(bytes, coordinate);
+    if (!mesh.colours.empty()) {
+      for (const std::uint8_t component : mesh.colours[i]) append_little_endian(bytes, component);
+    }
+    for (const VertexAttribute& attribute : attributes) {
+      std::visit([&](const auto& values) { append_little_endian(bytes, values[i]); },
+                 attribute.values);
+    }
   }
   for (const Triangle& triangle : mesh.triangles) {
     bytes += '\3';
@@ -172,18 +234,46 @@ double rounded_to_float(double x) {
   return rounded;
 }
 
+void require_one_per_point(const std::string& what, std::size_t count, const TriangleSoup& mesh) {
+  if (count == mesh.points.size()) return;
+  throw InputError(what + " has " + std::to_string(count) + " values for " +
+                   std::to_string(mesh.points.size()) + " vertices");
+}
+
+// That a reader will find every property, and no other of the same name.
+void check_values(const TriangleSoup& mesh, Attributes attributes, MeshFormat format) {
+  if (!mesh.colours.empty()) require_one_per_point("the colour", mesh.colours.size(), mesh);
+  if (!attributes.empty() && format != MeshFormat::ply && format != MeshFormat::ply_ascii) {
+    throw UsageError("only PLY files hold attributes of vertices");
+  }
+  std::vector<std::string> taken{"x", "y", "z", "red", "green", "blue"};
+  for (const VertexAttribute& attribute : attributes) {
+    require_one_per_point("attribute '" + attribute.name + "'", attribute.size(), mesh);
+    const bool printable = std::all_of(attribute.name.begin(), attribute.name.end(),
+                                       [](char c) { return c > ' ' && c <= '~'; });
+    if (attribute.name.empty() || !printable ||
+        std::find(taken.begin(), taken.end(), attribute.name) != taken.end()) {
+      throw InputError("attribute '" + attribute.name +
+                       "': the name is empty, not plain, or taken");
+    }
+    taken.push_back(attribute.name);
+  }
+}
+
 }  // namespace
 
-std::string encode_mesh(const TriangleSoup& mesh, MeshFormat format) {
+std::string encode_mesh(const TriangleSoup& mesh, MeshFormat format,
+                        std::span<const VertexAttribute> attributes) {
+  check_values(mesh, attributes, format);
   switch (format) {
     case MeshFormat::obj:
       return encode_obj(mesh);
     case MeshFormat::off:
       return encode_off(mesh);
     case MeshFormat::ply:
-      return encode_ply(mesh);
+      return encode_ply(mesh, attributes);
     case MeshFormat::ply_ascii:
-      return encode_ply_ascii(mesh);
+      return encode_ply_ascii(mesh, attributes);
     case MeshFormat::stl:
       return encode_stl(mesh);
     case MeshFormat::stl_ascii:
@@ -193,8 +283,12 @@ std::string encode_mesh(const TriangleSoup& mesh, MeshFormat format) {
 }
 
 TriangleSoup as_read_back(const TriangleSoup& mesh, MeshFormat format) {
-  if (format != MeshFormat::stl && format != MeshFormat::stl_ascii) return mesh;
   TriangleSoup seen;
+  if (format != MeshFormat::stl && format != MeshFormat::stl_ascii) {
+    seen = mesh;
+    if (format == MeshFormat::off) seen.colours.clear();
+    return seen;
+  }
   seen.triangles.reserve(mesh.triangles.size());
   mesh_io::PointMerger merger;
   for (const Triangle& triangle : mesh.triangles) {

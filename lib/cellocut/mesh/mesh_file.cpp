@@ -83,9 +83,10 @@ TriangleSoup read_mesh(const std::string& path, std::optional<MeshFormat> format
   }
 }
 
-void write_mesh(const TriangleSoup& mesh, const std::string& path, MeshFormat format) {
+void write_mesh(const TriangleSoup& mesh, const std::string& path, MeshFormat format,
+                std::span<const VertexAttribute> attributes) {
   AtomicFile file(path);
-  file.write(encode_mesh(mesh, format));
+  file.write(encode_mesh(mesh, format, attributes));
   file.commit();
 }
 

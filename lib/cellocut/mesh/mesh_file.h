@@ -2,10 +2,12 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 
 #include "cellocut/mesh/triangle_soup.h"
+#include "cellocut/mesh/vertex_attribute.h"
 
 namespace cellocut {
 
@@ -24,20 +26,33 @@ MeshFormat format_of_name(std::string_view name);
 // with equal coordinates become one point. OBJ faces of one or two corners (loose edges, as some
 // exporters write them) are counted in skipped_polygons and left out.
 //
+// Colours of vertices are read from PLY (red green blue, or diffuse_red and so on), OBJ (r g b
+// after x y z) and OFF (COFF). Floating-point components are 0 to 1, or 0 to 255 where the file has
+// any above 1. Vertices whose colour is missing or no number are white where others have one. STL
+// has none: its points are merged.
+//
 // Errors: UsageError where the format cannot be told; InputError with the path and what is wrong:
 // not there, a directory, empty, truncated, malformed (with the line where there are lines), a
 // coordinate that is not finite, an index out of range, no faces.
 TriangleSoup read_mesh(const std::string& path, std::optional<MeshFormat> format = {});
 
-// The bytes of a mesh file. OBJ, OFF, ASCII STL and ASCII PLY hold shortest decimals that read back
-// as the same doubles; binary PLY holds doubles; binary STL holds floats (rounded to nearest).
-std::string encode_mesh(const TriangleSoup& mesh, MeshFormat format);
+// The bytes of a mesh file. Colours are written to PLY (uchar red green blue) and OBJ (r g b after
+// x y z, 0 to 1), and read back as they are; OFF and STL leave them out. `attributes` become
+// further vertex properties of PLY, uchar, int or double. Errors: InputError where colours or
+// attributes are not one per point, or a name is no name of a property or is taken; UsageError for
+// attributes in a format that is not PLY. OBJ, OFF, ASCII STL and ASCII PLY hold shortest decimals
+// that read back as the same doubles; binary PLY holds doubles; binary STL holds floats (rounded to
+// nearest).
+std::string encode_mesh(const TriangleSoup& mesh, MeshFormat format,
+                        std::span<const VertexAttribute> attributes = {});
 
-// Writes through AtomicFile. `path` "-" is standard output. Errors: OutputError.
-void write_mesh(const TriangleSoup& mesh, const std::string& path, MeshFormat format);
+// Writes through AtomicFile. `path` "-" is standard output. Errors: as encode_mesh(); OutputError.
+void write_mesh(const TriangleSoup& mesh, const std::string& path, MeshFormat format,
+                std::span<const VertexAttribute> attributes = {});
 
 // The mesh that a reader of such a file will see: for binary STL coordinates rounded to float; for
-// both kinds of STL, points of equal coordinates merged; otherwise the mesh itself.
+// both kinds of STL, points of equal coordinates merged; for STL and OFF without colours; otherwise
+// the mesh itself. Corner k of triangle f stays corner k of triangle f.
 TriangleSoup as_read_back(const TriangleSoup& mesh, MeshFormat format);
 
 }  // namespace cellocut

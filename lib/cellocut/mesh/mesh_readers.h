@@ -9,7 +9,8 @@
 // mesh_file_error_test.cpp.
 //
 // All readers: errors are InputError without a path (read_mesh adds it), nothing is allocated on
-// the word of a header alone, degenerate and duplicate faces stay. O(size of the file).
+// the word of a header alone, degenerate and duplicate faces stay. Colours of vertices are read as
+// vertex_colours.h says; one that makes no sense is no error. O(size of the file).
 #pragma once
 
 #include <string_view>
@@ -19,14 +20,16 @@
 namespace cellocut::mesh_io {
 
 // Wavefront OBJ: `v` and `f`; everything else is skipped, and so are
-// faces of one or two corners (counted). Weights and colours after x y z are
-// ignored.
+// faces of one or two corners (counted). After x y z, three or four numbers are a colour (and its
+// opacity, which is left out); anything else there is ignored.
 TriangleSoup read_obj(std::string_view bytes);
-// Geomview OFF in text: OFF, COFF, NOFF, STOFF and their combinations; columns beyond x y z and
-// beyond the corners of a face are ignored. The counts may stand on the line of the keyword, even
-// without a blank (as in ModelNet). Binary OFF and the 4- and n-dimensional variants are refused.
+// Geomview OFF in text: OFF, COFF, NOFF, STOFF and their combinations; of the columns beyond x y z
+// the colour is read where the keyword has a C; those beyond the corners of a face are ignored. The
+// counts may stand on the line of the keyword, even without a blank (as in ModelNet). Binary OFF
+// and the 4- and n-dimensional variants are refused.
 TriangleSoup read_off(std::string_view bytes);
 // Stanford PLY, text and binary of both byte orders, any further elements and properties.
+// Colours: red green blue, or diffuse_red and so on.
 TriangleSoup read_ply(std::string_view bytes);
 // STL, text (any number of solids) and binary, told apart by the content. Points of equal
 // coordinates are merged.

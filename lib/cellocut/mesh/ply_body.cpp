@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <limits>
 
 #include "cellocut/base/byte_order.h"
 
@@ -148,6 +149,18 @@ std::vector<PlyColumn> coordinate_columns(const PlyElement& vertex) {
   return columns;
 }
 
+std::vector<PlyColumn> colour_columns(const PlyElement& vertex) {
+  for (const std::string prefix : {"", "diffuse_"}) {
+    std::vector<PlyColumn> columns;
+    for (const char* name : {"red", "green", "blue"}) {
+      const std::size_t property = find_property(vertex, prefix + name, false);
+      if (property != kAbsent) columns.push_back({property, "a colour", false});
+    }
+    if (columns.size() == 3) return columns;
+  }
+  return {};
+}
+
 void read_columns(TextBody& body, const PlyElement& element, std::span<const PlyColumn> columns,
                   const NumberSink& sink) {
   std::vector<double> numbers(columns.size());
@@ -156,7 +169,10 @@ void read_columns(TextBody& body, const PlyElement& element, std::span<const Ply
     for (std::size_t p = 0; p < element.properties.size(); ++p) {
       const std::size_t k = column_of(p, columns);
       if (k < columns.size()) {
-        numbers[k] = line.number(columns[k].what);
+        if (!columns[k].required && line.at_end()) {
+          line.fail("expected '" + element.properties[p].name + "', the line ends");
+        }
+        numbers[k] = columns[k].required ? line.number(columns[k].what) : line.number_or_nan();
       } else {
         skip_value(line, element.properties[p]);
       }
@@ -176,7 +192,9 @@ void read_columns(BinaryBody& body, const PlyElement& element, std::span<const P
       const std::size_t k = column_of(p, columns);
       if (k == columns.size()) continue;
       numbers[k] = load_number(at, property.type, body.order());
-      if (!std::isfinite(numbers[k])) {
+      if (!std::isfinite(numbers[k]) && !columns[k].required) {
+        numbers[k] = std::numeric_limits<double>::quiet_NaN();
+      } else if (!std::isfinite(numbers[k])) {
         throw InputError("vertex " + std::to_string(i) + " (counted from 0): " + columns[k].what +
                          " is not finite");
       }

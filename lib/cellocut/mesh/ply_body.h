@@ -74,14 +74,20 @@ double load_number(const char* at, PlyType type, std::endian order);
 
 // ---- both ---------------------------------------------------------------------------------------
 
-// A property whose value is wanted: a finite number, called `what` in errors.
+// A property whose value is wanted: a finite number, called `what` in errors. One that is not
+// required may be anything; what is no finite number comes as NaN.
 struct PlyColumn {
   std::size_t property;
   const char* what;
+  bool required = true;
 };
 
 // The columns x, y, z of the element 'vertex'. Errors: one of them is not there.
 std::vector<PlyColumn> coordinate_columns(const PlyElement& vertex);
+
+// The columns of a colour: red, green, blue, or diffuse_red and so on, in this order; none unless
+// all three are there.
+std::vector<PlyColumn> colour_columns(const PlyElement& vertex);
 
 using NumberSink = std::function<void(std::span<const double>)>;
 // Reads all instances of an element and hands the numbers of its columns, in their order, to the

@@ -1,4 +1,6 @@
+#include <array>
 #include <limits>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -39,6 +41,16 @@ std::uint32_t vertex_index(LineScanner& line, std::size_t point_count) {
                            : ", but there are only " + std::to_string(count) + " vertices so far"));
 }
 
+// After x y z: r g b or r g b a. One number is a weight, and of more than four nobody knows what
+// they are.
+void read_colour(LineScanner& line, SoupBuilder& builder) {
+  if (line.at_end()) return;
+  std::array<double, 4> numbers{};
+  std::size_t count = 0;
+  for (; count < numbers.size() && !line.at_end(); ++count) numbers[count] = line.number_or_nan();
+  if (count >= 3 && line.at_end()) builder.set_colour(std::span(numbers).first(count));
+}
+
 }  // namespace
 
 TriangleSoup read_obj(std::string_view bytes) {
@@ -57,6 +69,7 @@ TriangleSoup read_obj(std::string_view bytes) {
       const double y = line.number("a coordinate");
       const double z = line.number("a coordinate");
       builder.add_point({x, y, z});
+      read_colour(line, builder);
     } else if (keyword == "f" || keyword == "fo") {  // `fo` is the older name of `f`
       corners.clear();
       while (!line.at_end()) corners.push_back(vertex_index(line, builder.point_count()));

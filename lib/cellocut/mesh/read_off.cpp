@@ -1,4 +1,6 @@
+#include <array>
 #include <limits>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -28,8 +30,14 @@ std::size_t count_at(LineScanner& line, const char* what) {
   return static_cast<std::size_t>(count);
 }
 
+// What stands on the line of a vertex after x y z, by the keyword.
+struct Columns {
+  bool normal = false;  // before the colour
+  bool colour = false;  // r g b or r g b a, up to texture coordinates
+};
+
 // Removes a keyword such as OFF, COFF or STCNOFF (it may be left out) from the front of a line.
-std::string_view without_keyword(std::string_view text, std::size_t line) {
+std::string_view without_keyword(std::string_view text, std::size_t line, Columns& columns) {
   const std::size_t begin = text.find_first_not_of(" \t");
   std::size_t end = text.find("OFF", begin);
   if (end == std::string_view::npos) return text;
@@ -38,6 +46,8 @@ std::string_view without_keyword(std::string_view text, std::size_t line) {
   if (prefix.find_first_of("4n") != std::string_view::npos) {
     fail_at_line(line, "only OFF files in three dimensions are read");
   }
+  columns.colour = prefix.find('C') != std::string_view::npos;
+  columns.normal = prefix.find('N') != std::string_view::npos;
   end += 3;
   LineScanner after(text.substr(end), line);
   if (after.token() == "BINARY") fail_at_line(line, "binary OFF files are not read");
@@ -45,6 +55,7 @@ std::string_view without_keyword(std::string_view text, std::size_t line) {
 }
 
 struct Counts {
+  Columns columns;
   std::size_t points = 0;
   std::size_t faces = 0;
 };
@@ -52,19 +63,27 @@ struct Counts {
 Counts read_header(LineReader& lines) {
   std::string_view text;
   bool keyword_seen = false;
+  Counts counts;
   while (lines.next(text)) {
     LineScanner blank(text, lines.line());
     if (blank.at_end()) continue;
-    if (!keyword_seen) text = without_keyword(text, lines.line());
+    if (!keyword_seen) text = without_keyword(text, lines.line(), counts.columns);
     keyword_seen = true;
     LineScanner line(text, lines.line());
     if (line.at_end()) continue;
-    Counts counts;
     counts.points = count_at(line, "the number of vertices");
     counts.faces = count_at(line, "the number of faces");
     return counts;  // the number of edges is of no use, and some writers leave it out
   }
   throw InputError("the file ends before the number of vertices");
+}
+
+void read_colour(LineScanner& line, bool normal_first, SoupBuilder& builder) {
+  for (int k = 0; normal_first && k < 3; ++k) line.token();
+  std::array<double, 4> numbers{};
+  std::size_t count = 0;
+  for (; count < numbers.size() && !line.at_end(); ++count) numbers[count] = line.number_or_nan();
+  if (count >= 3) builder.set_colour(std::span(numbers).first(count));
 }
 
 }  // namespace
@@ -81,6 +100,7 @@ TriangleSoup read_off(std::string_view bytes) {
     const double y = line.number("a coordinate");
     const double z = line.number("a coordinate");
     builder.add_point({x, y, z});
+    if (counts.columns.colour) read_colour(line, counts.columns.normal, builder);
   }
   std::vector<std::uint32_t> corners;
   for (std::size_t i = 0; i < counts.faces; ++i) {

@@ -77,6 +77,12 @@ void read_faces(BinaryBody& body, const PlyElement& element, SoupBuilder& builde
   }
 }
 
+// What stands for full brightness in a component of that type; 0: the values tell.
+double full_of(PlyType type) {
+  if (type == PlyType::float32 || type == PlyType::float64) return 0;
+  return type == PlyType::uint16 ? 65535 : 255;
+}
+
 void check_elements(const PlyHeader& header) {
   if (!has_faces(header)) throw InputError("no faces");
   if (corner_list(*find_element(header, "face")) == kAbsent) {
@@ -93,8 +99,15 @@ void read_body(Body& body, const PlyHeader& header, SoupBuilder& builder) {
   for (const PlyElement& element : header.elements) {
     body.require_all(element);
     if (&element == vertices) {
-      read_columns(body, element, coordinate_columns(element), [&](std::span<const double> p) {
+      std::vector<PlyColumn> columns = coordinate_columns(element);
+      const std::vector<PlyColumn> colour = colour_columns(element);
+      if (!colour.empty()) {
+        builder.set_colour_full(full_of(element.properties[colour.front().property].type));
+        columns.insert(columns.end(), colour.begin(), colour.end());
+      }
+      read_columns(body, element, columns, [&](std::span<const double> p) {
         builder.add_point({p[0], p[1], p[2]});
+        if (p.size() == 6) builder.set_colour(p.subspan(3));
       });
     } else if (&element == faces) {
       read_faces(body, element, builder);

@@ -49,6 +49,7 @@ TriangleSoup SoupBuilder::finish(const char* place_name, std::size_t first_index
     throw InputError(what + ", but the vertices are " + std::to_string(first_index) + " to " +
                      std::to_string(soup_.points.size() - 1 + first_index));
   }
+  soup_.colours = colours_.finish(soup_.points.size());
   std::vector<std::uint32_t> corners;
   for (const Polygon& polygon : polygons_) {
     const std::span<Triangle> triangles(&soup_.triangles[polygon.first_triangle],

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cellocut/mesh/triangle_soup.h"
+#include "cellocut/mesh/vertex_colours.h"
 
 namespace cellocut::mesh_io {
 
@@ -22,6 +23,12 @@ class SoupBuilder {
   // Corners may name points that come later. `place` (a line, or the number of a face) is kept for
   // an error that finish() may find. Precondition: at least three corners.
   void add_face(std::span<const std::uint32_t> corners, std::size_t place);
+
+  // The colour of the point that was added last, as the file writes it. See VertexColours.
+  void set_colour(std::span<const double> components) {
+    colours_.set(soup_.points.size() - 1, components);
+  }
+  void set_colour_full(double full) { colours_.set_full(full); }
 
   // A polygon of fewer than three corners, which is counted and left out.
   void skip_polygon() { ++soup_.skipped_polygons; }
@@ -41,6 +48,7 @@ class SoupBuilder {
     std::uint32_t corner_count;
   };
   TriangleSoup soup_;
+  VertexColours colours_;
   // Any triangulation of n corners has n - 2 triangles. Each polygon is entered as a fan at once,
   // which holds its corners, and is triangulated in place when all points are known.
   std::vector<Polygon> polygons_;

@@ -3,6 +3,7 @@
 #include <charconv>
 #include <cstdlib>
 #include <cstring>
+#include <limits>
 #include <system_error>
 
 namespace cellocut::mesh_io {
@@ -61,6 +62,15 @@ double LineScanner::number(const char* what) {
   if (!std::isfinite(value)) fail(std::string(what) + " is not finite: " + quoted(peek()));
   at_ = stop;
   return value;
+}
+
+double LineScanner::number_or_nan() {
+  std::string_view text = token();
+  if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
+  double value = 0;
+  const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  const bool whole = error == std::errc() && stop == text.data() + text.size();
+  return whole && std::isfinite(value) ? value : std::numeric_limits<double>::quiet_NaN();
 }
 
 const char* LineScanner::integer_at(const char* what, std::int64_t& value) {

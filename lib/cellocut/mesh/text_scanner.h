@@ -44,6 +44,8 @@ class LineScanner {
   std::string_view token();
   // A finite number, here and as a whole token. `what` names it in the error.
   double number(const char* what);
+  // The next token as a number; NaN where it is none. For what a mesh can do without.
+  double number_or_nan();
   // An integer, ended by a blank or the end of the line.
   std::int64_t integer(const char* what);
   // An integer as faces of OBJ have them: `7`, `7/1`, `7//3` or `7/1/3`, of which the first is

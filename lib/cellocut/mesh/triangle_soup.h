@@ -12,11 +12,15 @@
 namespace cellocut {
 
 using Triangle = std::array<std::uint32_t, 3>;
+using Rgb = std::array<std::uint8_t, 3>;  // red, green, blue, as files hold them
 
 struct TriangleSoup {
   std::vector<Point3> points;
   std::vector<Triangle> triangles;
   std::size_t skipped_polygons = 0;  // of the file: fewer than three corners, so no face
+  // One for each point; or none at all, where the file has none. Whoever adds, drops or merges
+  // points keeps this so, if need be by clearing it.
+  std::vector<Rgb> colours{};
 
   [[nodiscard]] std::size_t triangle_count() const { return triangles.size(); }
   [[nodiscard]] bool empty() const { return triangles.empty(); }

@@ -392,6 +392,7 @@ TEST(FairingOfACut, HolesInASphereFollowItsCurvature) {
   }
   RemeshOptions options;
   options.resolution = 96;
+  options.surface = SurfaceMode::sdf;
   options.lambda_fill = {4, 1};  // or else it stays a hollow shell
   const RemeshResult cut = remesh(input, options, *backends::make("cgal"), *solvers::make("bk"));
   const double step = cut.frame.spacing;

@@ -48,31 +48,30 @@ struct RemeshOptions {
   int area_bits = 40;  // facet areas sum to at most 2^area_bits quanta; 8 to 50
   CutChoice cut = CutChoice::largest;
   SurfaceMode surface = SurfaceMode::union_;
-  // Whether supported vertices are pulled to the input; by default with `union_` alone, never with
-  // `cells`.
-  std::optional<bool> pull;
   // The distance from the input that pulled vertices keep, relative to the longest edge; above 0,
   // at most epsilon. Default min(1/R, epsilon) / 40.
   std::optional<double> pull_distance;
-  bool thickening = true;  // false: phi is the flood-signed distance, no offset (ablation)
-  bool unary = true;       // false: L* only sets weights, nothing is anchored interior (ablation)
-  // Surface components of less than this share of the total volume are dropped; 0 to 1.
-  double min_component = 0;
-  bool reduce = false;  // the problem, exactly, before it is solved (SolveOptions::reduce)
-  // When a relaxation stops; it is always completed to a flow, without which there is no
-  // certificate.
-  RelaxationOptions relaxation{};
-  bool provenance = false;  // whether result.provenance is made
-  // Whether the surface gets the colours of the input's vertices; with provenance or without.
-  bool transfer_colour = false;
-  // The format that the surface will be written in: it is judged as a reader will see it.
-  MeshFormat output_format = MeshFormat::obj;
-
-  bool fair = false;  // completed patches follow a bending energy; not with `cells`
   // Fewer triangles: a target, and a bound on the Hausdorff distance to the full surface relative
   // to the longest edge. 0: none.
   std::int64_t faces = 0;
   double max_error = 0;
+  // Surface components of less than this share of the total volume are dropped; 0 to 1.
+  double min_component = 0;
+  // When a relaxation stops; it is always completed to a flow, without which there is no
+  // certificate.
+  RelaxationOptions relaxation{};
+  // The format that the surface will be written in: it is judged as a reader will see it.
+  MeshFormat output_format = MeshFormat::obj;
+  // Whether supported vertices are pulled to the input; by default with `union_` alone, never with
+  // `cells`.
+  std::optional<bool> pull;
+  bool fair = false;        // completed patches follow a bending energy; not with `cells`
+  bool thickening = true;   // false: phi is the flood-signed distance, no offset (ablation)
+  bool unary = true;        // false: L* only sets weights, nothing is anchored interior (ablation)
+  bool reduce = false;      // the problem, exactly, before it is solved (SolveOptions::reduce)
+  bool provenance = false;  // whether result.provenance is made
+  // Whether the surface gets the colours of the input's vertices; with provenance or without.
+  bool transfer_colour = false;
 
   [[nodiscard]] bool simplifies() const { return faces > 0 || max_error > 0; }
   [[nodiscard]] bool pulls() const { return pull.value_or(surface == SurfaceMode::union_); }

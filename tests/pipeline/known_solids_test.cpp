@@ -23,7 +23,7 @@ struct Solid {
   std::vector<Point3> holes;                      // centres
   double radius;                                  // of each
 };
-void PrintTo(const Solid& c, std::ostream* out) { *out << c.name; }
+std::ostream& operator<<(std::ostream& out, const Solid& c) { return out << c.name; }
 
 // Each face of the box in 2 x 32^2 triangles, so that a hole has a round rim.
 TriangleSoup fine_box(const Point3& high) {

@@ -46,7 +46,7 @@ struct Sheet {
   TriangleSoup soup;
   std::int64_t euler;  // of the thin solid's surface
 };
-void PrintTo(const Sheet& c, std::ostream* out) { *out << c.name; }
+std::ostream& operator<<(std::ostream& out, const Sheet& c) { return out << c.name; }
 
 std::vector<Sheet> sheets() {
   std::vector<Sheet> list{{"cloth", cloth(40), 2},

@@ -107,7 +107,7 @@ struct Case {
   TriangleSoup soup;
   std::int64_t lambda;
 };
-void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
+std::ostream& operator<<(std::ostream& out, const Case& c) { return out << c.name; }
 
 std::vector<Case> cases() {
   return {{"bowl_filled", test::open_bowl(), 1},

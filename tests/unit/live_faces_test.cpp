@@ -16,6 +16,7 @@ TEST(LiveFaces, FindsWhatALookAtAllFacesFinds) {
   std::mt19937_64 random(11);
   std::uniform_real_distribution<double> coordinate(-1, 1);
   std::vector<Point3> points;
+  points.reserve(3000);
   for (int i = 0; i < 3000; ++i) {
     points.push_back({1e3 + coordinate(random), coordinate(random), coordinate(random)});
   }

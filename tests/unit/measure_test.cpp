@@ -61,14 +61,14 @@ TEST(SampleSurface, UniformWithinAFace) {
     const int i = std::min(static_cast<int>(u), 7);
     const int j = std::min(static_cast<int>(v), 7);
     const bool upper = (u - i) + (v - j) > 1;
-    ++counts[static_cast<std::size_t>(2 * (8 * i + j) + (upper ? 1 : 0))];
+    ++counts[2 * (8 * i + j) + (upper ? 1 : 0)];
   }
   double chi_square = 0;
   int parts = 0;
   for (int i = 0; i < 8; ++i) {
     for (int j = 0; i + j < 8; ++j) {
       for (int upper = 0; upper < (i + j < 7 ? 2 : 1); ++upper, ++parts) {
-        const int count = counts[static_cast<std::size_t>(2 * (8 * i + j) + upper)];
+        const int count = counts[2 * (8 * i + j) + upper];
         chi_square += std::pow(count - 1000.0, 2) / 1000;
       }
     }
@@ -171,12 +171,15 @@ TEST(NearestSample, IsThatOfASearchThroughAll) {
 
 TEST(NearestSample, LowestIndexAmongEquals) {
   std::vector<Point3> grid;
+  grid.reserve(3 * 343);
   for (int i = 0; i < 3 * 343; ++i) {  // every point three times
     grid.push_back({0.1 * (i % 7), 0.1 * (i / 7 % 7), 0.1 * (i / 49 % 7)});
   }
   std::vector<Point3> between;
+  between.reserve(216);
   for (int i = 0; i < 216; ++i) {
-    between.push_back({0.1 * (i % 6) + 0.05, 0.1 * (i / 6 % 6) + 0.05, 0.1 * (i / 36) + 0.05});
+    const int layer = i / 36;
+    between.push_back({0.1 * (i % 6) + 0.05, 0.1 * (i / 6 % 6) + 0.05, 0.1 * layer + 0.05});
   }
   expect_as_search(grid, between);
   expect_as_search(grid, grid);

@@ -3,6 +3,7 @@
 // (the build sets -ffp-contract=off).
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -37,9 +38,19 @@ constexpr double six_volumes(const Point3& a, const Point3& b, const Point3& c, 
   return dot(cross(b - a, c - a), d - a);
 }
 
+inline bool is_finite(const Point3& p) {
+  return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]);
+}
+
 struct Box3 {
   Point3 low{};
   Point3 high{};
+  void include(const Point3& p) {
+    for (int axis = 0; axis < 3; ++axis) {
+      low[axis] = std::min(low[axis], p[axis]);
+      high[axis] = std::max(high[axis], p[axis]);
+    }
+  }
   [[nodiscard]] double longest_edge() const {
     return std::fmax(high[0] - low[0], std::fmax(high[1] - low[1], high[2] - low[2]));
   }

@@ -63,9 +63,6 @@ class GridComponents {
   static constexpr std::uint16_t kNoLocal = 0xFFFFU;
   using Local = std::array<std::uint16_t, kLeafPoints>;
 
-  static openvdb::Coord point_of(const openvdb::Coord& low, std::uint32_t offset) {
-    return low + FieldLeaf::offsetToLocalCoord(offset);
-  }
   static openvdb::Coord beyond(openvdb::Coord at, int axis, int step) {
     at[axis] += step;
     return at;

@@ -57,14 +57,7 @@ TriangleSoup relative_soup(const TriangleSoup& soup, const RelativeFrame& frame)
 
 Box3 box_of(const std::vector<Point3>& points) {
   if (points.empty()) throw InputError("no points");
-  Box3 box{points[0], points[0]};
-  for (const Point3& p : points) {
-    for (int axis = 0; axis < 3; ++axis) {
-      box.low[axis] = std::min(box.low[axis], p[axis]);
-      box.high[axis] = std::max(box.high[axis], p[axis]);
-    }
-  }
-  return box;
+  return bounding_box(points);
 }
 
 Box3 box_of(const TriangleSoup& soup) {

@@ -4,23 +4,9 @@
 #include <cmath>
 
 #include "cellocut/measure/embree_scene.h"
+#include "cellocut/mesh/triangle_soup.h"
 
 namespace cellocut {
-
-namespace {
-
-Box3 box_of(const std::vector<Point3>& points) {
-  Box3 box{points[0], points[0]};
-  for (const Point3& p : points) {
-    for (int axis = 0; axis < 3; ++axis) {
-      box.low[axis] = std::min(box.low[axis], p[axis]);
-      box.high[axis] = std::max(box.high[axis], p[axis]);
-    }
-  }
-  return box;
-}
-
-}  // namespace
 
 struct NearestSample::Scene {
   std::vector<Point3> points;
@@ -29,7 +15,7 @@ struct NearestSample::Scene {
 
   explicit Scene(std::vector<Point3> given) : points(std::move(given)) {
     if (points.empty()) return;
-    frame = EmbreeFrame(box_of(points));
+    frame = EmbreeFrame(bounding_box(points));
     embree.build(points.size(), this, bounds, visit);
   }
 

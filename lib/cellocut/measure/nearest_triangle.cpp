@@ -21,10 +21,6 @@ Point3 nearest_on_segment(const Point3& p, const Point3& a, const Point3& b) {
   return a + t * edge;
 }
 
-bool is_finite(const Point3& p) {
-  return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]);
-}
-
 }  // namespace
 
 Point3 nearest_on_triangle(const Point3& p, const Point3& a, const Point3& b, const Point3& c) {
@@ -130,12 +126,7 @@ NearestTriangle::Scene::Scene(const TriangleSoup& soup) {
   sort_triangles();
   Box3 box{corners[0][0], corners[0][0]};
   for (const std::array<Point3, 3>& t : corners) {
-    for (const Point3& p : t) {
-      for (int axis = 0; axis < 3; ++axis) {
-        box.low[axis] = std::min(box.low[axis], p[axis]);
-        box.high[axis] = std::max(box.high[axis], p[axis]);
-      }
-    }
+    for (const Point3& p : t) box.include(p);
   }
   frame = EmbreeFrame(box);
   for (std::array<Point3, 3>& t : corners) {

@@ -1,19 +1,20 @@
 #include "cellocut/mesh/triangle_soup.h"
 
-#include <algorithm>
-
 namespace cellocut {
 
-Box3 bounding_box(const TriangleSoup& soup) {
-  Box3 box{soup.points[soup.triangles.front()[0]], soup.points[soup.triangles.front()[0]]};
-  for (const Triangle& triangle : soup.triangles) {
-    for (const std::uint32_t v : triangle) {
-      for (int axis = 0; axis < 3; ++axis) {
-        box.low[axis] = std::min(box.low[axis], soup.points[v][axis]);
-        box.high[axis] = std::max(box.high[axis], soup.points[v][axis]);
-      }
-    }
+Box3 bounding_box(const TriangleSoup& soup) { return bounding_box(soup.points, soup.triangles); }
+
+Box3 bounding_box(const std::vector<Point3>& points, const std::vector<Triangle>& triangles) {
+  Box3 box{points[triangles.front()[0]], points[triangles.front()[0]]};
+  for (const Triangle& triangle : triangles) {
+    for (const std::uint32_t v : triangle) box.include(points[v]);
   }
+  return box;
+}
+
+Box3 bounding_box(const std::vector<Point3>& points) {
+  Box3 box{points.front(), points.front()};
+  for (const Point3& p : points) box.include(p);
   return box;
 }
 

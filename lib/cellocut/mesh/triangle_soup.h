@@ -28,5 +28,8 @@ struct TriangleSoup {
 
 // The box of the points that triangles use (stray points do not count). Precondition: not empty.
 Box3 bounding_box(const TriangleSoup& soup);
+Box3 bounding_box(const std::vector<Point3>& points, const std::vector<Triangle>& triangles);
+// The box of all points. Precondition: not empty.
+Box3 bounding_box(const std::vector<Point3>& points);
 
 }  // namespace cellocut

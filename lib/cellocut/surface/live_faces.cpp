@@ -1,7 +1,5 @@
 #include "cellocut/surface/live_faces.h"
 
-#include <algorithm>
-#include <cmath>
 #include <numeric>
 
 namespace cellocut {
@@ -14,25 +12,11 @@ constexpr std::size_t kSmall = 1024;  // faces; a tree of fewer is not worth bui
 }  // namespace
 
 LiveFaces::LiveFaces(const std::vector<Point3>& points, const std::vector<Triangle>& faces)
-    : points_(points), count_(faces.size()), boxes_(faces.size()), place_(faces.size()) {
-  Box3 box{points[faces[0][0]], points[faces[0][0]]};
-  for (const Triangle& t : faces) {
-    for (const std::uint32_t v : t) {
-      for (int axis = 0; axis < 3; ++axis) {
-        box.low[axis] = std::min(box.low[axis], points[v][axis]);
-        box.high[axis] = std::max(box.high[axis], points[v][axis]);
-      }
-    }
-  }
-  // Into [-1, 1] by steps that are monotone also after rounding, as is the conversion to float:
-  // boxes that overlap before do so afterwards (see intersections.cpp).
-  double extent = 0;
-  for (int axis = 0; axis < 3; ++axis) {
-    centre_[axis] = 0.5 * box.low[axis] + 0.5 * box.high[axis];
-    extent = std::fmax(extent, 0.5 * box.high[axis] - 0.5 * box.low[axis]);
-  }
-  if (extent > 0) scale_ = std::ldexp(1.0, std::min(1000, -std::ilogb(extent) - 1));
-
+    : points_(points),
+      frame_(bounding_box(points, faces)),
+      count_(faces.size()),
+      boxes_(faces.size()),
+      place_(faces.size()) {
   for (std::size_t f = 0; f < faces.size(); ++f) boxes_[f] = box_of(faces[f]);
   std::vector<std::uint32_t> ids(faces.size());
   std::iota(ids.begin(), ids.end(), 0U);
@@ -40,16 +24,8 @@ LiveFaces::LiveFaces(const std::vector<Point3>& points, const std::vector<Triang
 }
 
 FloatBox LiveFaces::box_of(const Triangle& corners) const {
-  FloatBox box = FloatBox::none();
-  box.low[3] = box.high[3] = 0;
-  for (const std::uint32_t v : corners) {
-    const Point3 p = scale_ * (points_[v] - centre_);
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      box.low[axis] = std::min(box.low[axis], static_cast<float>(p[static_cast<int>(axis)]));
-      box.high[axis] = std::max(box.high[axis], static_cast<float>(p[static_cast<int>(axis)]));
-    }
-  }
-  return box;
+  return float_box(
+      {frame_(points_[corners[0]]), frame_(points_[corners[1]]), frame_(points_[corners[2]])});
 }
 
 void LiveFaces::build(const std::vector<std::uint32_t>& ids) {

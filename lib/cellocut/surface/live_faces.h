@@ -7,6 +7,7 @@
 
 #include "cellocut/mesh/triangle_soup.h"
 #include "cellocut/validity/box_tree.h"
+#include "cellocut/validity/float_frame.h"
 
 namespace cellocut {
 
@@ -42,8 +43,7 @@ class LiveFaces {
   void build(const std::vector<std::uint32_t>& ids);
 
   const std::vector<Point3>& points_;
-  Point3 centre_{};
-  double scale_ = 1;
+  FloatFrame frame_;
   std::size_t count_ = 0;
   std::vector<FloatBox> boxes_;       // by face
   std::vector<std::uint32_t> place_;  // in the tree; kGone for those that are no more

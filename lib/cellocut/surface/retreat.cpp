@@ -7,11 +7,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <memory>
 #include <numeric>
-#include <span>
 
 #include "cellocut/validity/box_tree.h"
+#include "cellocut/validity/buckets.h"
 #include "cellocut/validity/face_filter.h"
 #include "cellocut/validity/float_frame.h"
 #include "cellocut/validity/intersections.h"
@@ -27,29 +26,6 @@ void sort_unique(Indices& indices) {
   std::sort(indices.begin(), indices.end());
   indices.erase(std::unique(indices.begin(), indices.end()), indices.end());
 }
-
-// The faces around each vertex.
-class VertexFaces {
- public:
-  VertexFaces(const std::vector<Triangle>& triangles, std::size_t vertices)
-      : first_(vertices + 1, 0), faces_(3 * triangles.size()) {
-    for (const Triangle& t : triangles) {
-      for (const std::uint32_t v : t) ++first_[v + 1];
-    }
-    std::partial_sum(first_.begin(), first_.end(), first_.begin());
-    std::vector<std::size_t> next(first_.begin(), first_.end() - 1);
-    for (std::uint32_t f = 0; f < triangles.size(); ++f) {
-      for (const std::uint32_t v : triangles[f]) faces_[next[v]++] = f;
-    }
-  }
-  [[nodiscard]] std::span<const std::uint32_t> operator[](std::uint32_t v) const {
-    return {faces_.data() + first_[v], faces_.data() + first_[v + 1]};
-  }
-
- private:
-  std::vector<std::size_t> first_;
-  Indices faces_;
-};
 
 class Movement {
  public:
@@ -67,7 +43,8 @@ class Movement {
     const bool most = moved.size() > triangles_.size() / 4;
     Indices bad = most ? test_all() : Indices{};
     if (most && bad.empty()) return std::move(result_);
-    const VertexFaces around(triangles_, from_.size());
+    const Buckets corners_at(from_.size(), 3 * triangles_.size(),
+                             [this](std::size_t i) { return triangles_[i / 3][i % 3]; });
     const FloatFrame frame(box_of_ways());
     const BoxTree ways = tree_of_ways(frame);
     if (!most) bad = test_again(moved, ways, frame);
@@ -75,7 +52,7 @@ class Movement {
     while (!bad.empty()) {
       observer_.check();
       ++result_.rounds;
-      bad = test_again(step_back(bad, around), ways, frame);
+      bad = test_again(step_back(bad, corners_at), ways, frame);
     }
     return std::move(result_);
   }
@@ -119,12 +96,7 @@ class Movement {
   [[nodiscard]] Box3 box_of_ways() const {
     Box3 box{from_.front(), from_.front()};
     for (const std::vector<Point3>* points : {&from_, &to_}) {
-      for (const Point3& p : *points) {
-        for (int axis = 0; axis < 3; ++axis) {
-          box.low[axis] = std::min(box.low[axis], p[axis]);
-          box.high[axis] = std::max(box.high[axis], p[axis]);
-        }
-      }
+      for (const Point3& p : *points) box.include(p);
     }
     return box;
   }
@@ -142,8 +114,9 @@ class Movement {
     return BoxTree(all, boxes);
   }
 
-  // Moves the vertices of the bad faces back; returns the faces that this changes.
-  Indices step_back(const Indices& bad, const VertexFaces& around) {
+  // Moves the vertices of the bad faces back; returns the faces that this changes. `corners_at`: by
+  // vertex, 3 f + k for each corner k of a face f that it is.
+  Indices step_back(const Indices& bad, const Buckets& corners_at) {
     Indices vertices;
     for (const std::uint32_t f : bad) {
       vertices.insert(vertices.end(), triangles_[f].begin(), triangles_[f].end());
@@ -162,8 +135,8 @@ class Movement {
       }
     }
     for (const std::uint32_t v : stuck) {
-      for (const std::uint32_t f : around[v]) {
-        for (const std::uint32_t neighbour : triangles_[f]) {
+      for (const std::uint32_t corner : corners_at[v]) {
+        for (const std::uint32_t neighbour : triangles_[corner / 3]) {
           if (result_.halvings[neighbour] == Retreat::kStayed) continue;
           result_.halvings[neighbour] = Retreat::kStayed;
           result_.points[neighbour] = from_[neighbour];
@@ -173,7 +146,7 @@ class Movement {
     }
     Indices faces;
     for (const std::uint32_t v : changed) {
-      faces.insert(faces.end(), around[v].begin(), around[v].end());
+      for (const std::uint32_t corner : corners_at[v]) faces.push_back(corner / 3);
     }
     sort_unique(faces);
     return faces;

@@ -134,12 +134,7 @@ class Search {
   [[nodiscard]] Box3 box_of_faces() const {
     Box3 box{points_[triangles_[faces_[0]][0]], points_[triangles_[faces_[0]][0]]};
     for (const std::uint32_t face : faces_) {
-      for (const std::uint32_t v : triangles_[face]) {
-        for (int axis = 0; axis < 3; ++axis) {
-          box.low[axis] = std::min(box.low[axis], points_[v][axis]);
-          box.high[axis] = std::max(box.high[axis], points_[v][axis]);
-        }
-      }
+      for (const std::uint32_t v : triangles_[face]) box.include(points_[v]);
     }
     return box;
   }

@@ -13,10 +13,6 @@ namespace cellocut {
 
 namespace {
 
-bool is_finite(const Point3& p) {
-  return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]);
-}
-
 std::uint64_t hash_of(const Point3& p) {
   std::uint64_t hash = 0;
   for (const double coordinate : p) {

@@ -18,10 +18,6 @@ namespace {
 // What the coordinates of a face allow.
 enum class FaceShape : std::uint8_t { proper, degenerate, nonfinite };
 
-bool is_finite(const Point3& p) {
-  return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]);
-}
-
 void check_indices(const TriangleSoup& mesh) {
   if (mesh.triangles.size() > UINT32_MAX / 3 || mesh.points.size() > UINT32_MAX) {
     throw LimitError("the surface check is limited to 1431655765 faces");
@@ -71,12 +67,7 @@ void sum_components(const TriangleSoup& mesh, const Incidence& incidence,
   Box3 box{{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
   for (std::size_t f = 0; f < shapes.size(); ++f) {
     if (shapes[f] == FaceShape::nonfinite) continue;
-    for (const std::uint32_t v : mesh.triangles[f]) {
-      for (int axis = 0; axis < 3; ++axis) {
-        box.low[axis] = std::min(box.low[axis], mesh.points[v][axis]);
-        box.high[axis] = std::max(box.high[axis], mesh.points[v][axis]);
-      }
-    }
+    for (const std::uint32_t v : mesh.triangles[f]) box.include(mesh.points[v]);
   }
   const Point3 apex = 0.5 * box.low + 0.5 * box.high;
   std::vector<std::uint32_t> index_of(shapes.size());

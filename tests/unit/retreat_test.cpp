@@ -13,7 +13,7 @@ namespace cellocut::testing {
 namespace {
 
 Retreat move(const TriangleSoup& soup, const std::vector<Point3>& to) {
-  return move_vertices(soup.points, to, soup.triangles, silent_observer());
+  return move_vertices(soup.points, to, to, soup.triangles, silent_observer());
 }
 
 void expect_valid(const TriangleSoup& soup, const Retreat& moved) {
@@ -101,15 +101,37 @@ TEST(Retreat, AnyDisplacementEndsValidAndTheSameForAnyNumberOfThreads) {
   }
 }
 
+TEST(Retreat, WhatCannotGoBeyondArrivesAllTheSame) {
+  TriangleSoup soup = test::icosphere(3);
+  const std::size_t first = soup.points.size();
+  test::append(soup, test::icosphere(3, 1, {2.5, 0, 0}));
+  std::vector<Point3> to = soup.points;
+  std::vector<Point3> beyond = to;
+  for (std::size_t v = 0; v < first; ++v) {
+    to[v][0] += 0.25;
+    beyond[v][0] += 1;  // 0.5 into the other one
+  }
+  const Retreat moved = move_vertices(soup.points, to, beyond, soup.triangles, silent_observer());
+  expect_valid(soup, moved);
+  for (std::size_t v = 0; v < first; ++v) {
+    EXPECT_EQ(moved.halvings[v], 0);
+    EXPECT_EQ(moved.points[v], moved.fell_short[v] == 0 ? beyond[v] : to[v]);
+    if (soup.points[v][0] > 0.7) {
+      EXPECT_EQ(moved.fell_short[v], 1) << "in the way of the other";
+    } else if (soup.points[v][0] < -0.5) {
+      EXPECT_EQ(moved.fell_short[v], 0) << "in nobody's way";
+    }
+  }
+}
+
 TEST(Retreat, StopsWhenAskedTo) {
   class Stop : public Observer {
     [[nodiscard]] bool cancelled() const override { return true; }
   };
   Stop stop;
   const TriangleSoup soup = test::icosphere(2);
-  EXPECT_THROW(move_vertices(soup.points, std::vector<Point3>(soup.points.size(), Point3{0, 0, 0}),
-                             soup.triangles, stop),
-               Cancelled);
+  const std::vector<Point3> centre(soup.points.size(), Point3{0, 0, 0});
+  EXPECT_THROW(move_vertices(soup.points, centre, centre, soup.triangles, stop), Cancelled);
 }
 
 }  // namespace

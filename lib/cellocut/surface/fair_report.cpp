@@ -10,7 +10,8 @@ FairReport fair_surface(TriangleSoup& surface, const std::vector<std::uint8_t>& 
                         Observer& observer) {
   const FairingResult wanted =
       fair_completed(surface, supported, input, step, clearance, {}, observer);
-  Retreat moved = move_vertices(surface.points, wanted.points, surface.triangles, observer);
+  Retreat moved =
+      move_vertices(surface.points, wanted.points, wanted.points, surface.triangles, observer);
   surface.points = std::move(moved.points);
   FairReport report{.patches = wanted.patches,
                     .patches_left = wanted.patches_left,

@@ -1,5 +1,8 @@
 #include "cellocut/surface/live_faces.h"
 
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
 #include <numeric>
 
 namespace cellocut {
@@ -17,7 +20,8 @@ LiveFaces::LiveFaces(const std::vector<Point3>& points, const std::vector<Triang
       count_(faces.size()),
       boxes_(faces.size()),
       place_(faces.size()) {
-  for (std::size_t f = 0; f < faces.size(); ++f) boxes_[f] = box_of(faces[f]);
+  tbb::parallel_for(std::size_t{0}, faces.size(),
+                    [&](std::size_t f) { boxes_[f] = box_of(faces[f]); });
   std::vector<std::uint32_t> ids(faces.size());
   std::iota(ids.begin(), ids.end(), 0U);
   build(ids);
@@ -35,6 +39,11 @@ void LiveFaces::build(const std::vector<std::uint32_t>& ids) {
 
 void LiveFaces::change(std::uint32_t face, const Triangle& corners) {
   boxes_[face] = box_of(corners);
+  tree_->replace(place_[face], boxes_[face]);
+}
+
+void LiveFaces::hide(std::uint32_t face) {
+  boxes_[face] = FloatBox::none();
   tree_->replace(place_[face], boxes_[face]);
 }
 

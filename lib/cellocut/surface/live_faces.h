@@ -23,6 +23,8 @@ class LiveFaces {
 
   // The face has other corners now. O(log n). Precondition: the face is live.
   void change(std::uint32_t face, const Triangle& corners);
+  // Nothing finds the face until it changes. O(log n). Precondition: the face is live.
+  void hide(std::uint32_t face);
   // The face is gone. O(log n) on average. Precondition: the face is live, and not the last.
   void remove(std::uint32_t face);
 
@@ -32,11 +34,15 @@ class LiveFaces {
   // The box of a live face, in the same coordinates.
   [[nodiscard]] const FloatBox& box(std::uint32_t face) const { return boxes_[face]; }
 
+  // The live faces in the tree's coordinates, and what was hidden or removed nowhere.
+  [[nodiscard]] const BoxTree& tree() const { return *tree_; }
+
   // Calls visit(face) for each live face whose box overlaps the given one, in an order that depends
   // on the history of calls alone. O(log n + found) where faces do not crowd.
   template <class Visit>
   void find(const FloatBox& box, const Visit& visit) const {
-    tree_->visit_boxes([&](const FloatBox& other) { return overlap(other, box); }, visit);
+    tree_->visit_boxes(
+        box, [](const FloatBox&) { return true; }, visit);
   }
 
  private:

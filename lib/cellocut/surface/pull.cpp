@@ -106,20 +106,19 @@ PullReport pull_to_input(TriangleSoup& surface, const std::vector<std::uint8_t>&
     to[v] = squared_norm(target.direction) == 0 ? surface.points[v]
                                                 : target.nearest + distance * target.direction;
   }
-  observer.check();
-  Retreat moved = move_vertices(surface.points, to, surface.triangles, observer);
   const CreaseShift shift(surface, targets, expected);
+  std::vector<Point3> beyond(count);
   tbb::parallel_for(std::size_t{0}, count, [&](std::size_t v) {
-    to[v] = moved.points[v];
+    beyond[v] = to[v];
     const Point3 way = shift(static_cast<std::uint32_t>(v));
-    if (moved.halvings[v] != 0 || squared_norm(way) == 0) return;
+    if (squared_norm(way) == 0) return;
     // Where the face bends the vertex would leave its distance, or even its side.
     const double left = input(to[v] + way, 2 * distance).distance;
-    if (left >= 0.5 * distance && left <= 2 * distance) to[v] = to[v] + way;
+    if (left >= 0.5 * distance && left <= 2 * distance) beyond[v] = to[v] + way;
   });
-  std::vector<std::uint8_t> shifted(count);
-  for (std::size_t v = 0; v < count; ++v) shifted[v] = to[v] != moved.points[v] ? 1 : 0;
-  surface.points = move_vertices(moved.points, to, surface.triangles, observer).points;
+  observer.check();
+  Retreat moved = move_vertices(surface.points, to, beyond, surface.triangles, observer);
+  surface.points = std::move(moved.points);
   report.bad_faces_at_first = moved.bad_faces_at_first;
   report.rounds = moved.rounds;
 
@@ -127,10 +126,11 @@ PullReport pull_to_input(TriangleSoup& surface, const std::vector<std::uint8_t>&
   for (std::size_t v = 0; v < count; ++v) {
     if (supported[v] == 0) continue;
     ++report.supported;
-    if (shifted[v] != 0) ++report.shifted;
+    const bool shifted = beyond[v] != to[v] && moved.fell_short[v] == 0;
+    if (shifted) ++report.shifted;
     if (moved.halvings[v] == Retreat::kStayed) ++report.went_back;
     if (moved.halvings[v] > 0 && moved.halvings[v] < Retreat::kStayed) ++report.stopped_early;
-    const bool as_asked = moved.halvings[v] == 0 && shifted[v] == 0;
+    const bool as_asked = moved.halvings[v] == 0 && !shifted;
     offsets.push_back(as_asked ? offset[v] : input(surface.points[v]).distance);
   }
   report.offset = quantiles_of(std::move(offsets));

@@ -16,6 +16,7 @@ struct Retreat {
 
   std::vector<Point3> points;
   std::vector<std::uint8_t> halvings;  // per vertex: the displacement is 2^-halvings of that asked
+  std::vector<std::uint8_t> fell_short;  // per vertex: 1 where it could not be `beyond`
   // Faces that are degenerate or intersect another with all displacements in full.
   std::int64_t bad_faces_at_first = 0;
   int rounds = 0;
@@ -28,9 +29,13 @@ struct Retreat {
 // valid mesh. Faces none of whose vertices move are only tested against those that do, so where
 // little moves, little is tested.
 //
-// Preconditions: the mesh is valid at `from`; from.size() == to.size(), all finite. The same for
-// any number of threads. O(n log n + rounds * faces that were bad). Errors: Cancelled.
+// `beyond`: a vertex is first tried there; where that does not do it goes back to `to`, and from
+// then on as above. Pass `to` where there is no such place.
+//
+// Preconditions: the mesh is valid at `from`; the three have the same size, all finite. The same
+// for any number of threads. O(n log n + rounds * faces that were bad). Errors: Cancelled.
 Retreat move_vertices(const std::vector<Point3>& from, const std::vector<Point3>& to,
-                      const std::vector<Triangle>& triangles, Observer& observer);
+                      const std::vector<Point3>& beyond, const std::vector<Triangle>& triangles,
+                      Observer& observer);
 
 }  // namespace cellocut

@@ -1,17 +1,14 @@
 #include "cellocut/validity/box_tree.h"
 
 #include <tbb/parallel_for.h>
-#include <tbb/parallel_invoke.h>
 #include <tbb/parallel_sort.h>
 
 #include <cmath>
+#include <utility>
 
 namespace cellocut {
 
 namespace {
-
-constexpr std::size_t kLeafSize = 8;
-constexpr std::size_t kParallelSize = 512;  // leaves; one thread bounds smaller subtrees
 
 struct Place {
   std::uint64_t code;  // along the curve
@@ -31,9 +28,7 @@ std::uint64_t spread(std::uint64_t x) {
 }  // namespace
 
 BoxTree::BoxTree(const std::vector<std::uint32_t>& ids, const std::vector<FloatBox>& boxes)
-    : ids_(ids.size()), boxes_(ids.size()) {
-  while (ids.size() > kLeafSize << depth_) ++depth_;
-  nodes_.resize(2 * leaf_count());
+    : ids_(ids.size()) {
   FloatBox all = FloatBox::none();
   for (const std::uint32_t id : ids) all.include(boxes[id]);
   const float cells = std::ldexp(1.0F, 20);  // twice the centre has 21 bits
@@ -51,46 +46,35 @@ BoxTree::BoxTree(const std::vector<std::uint32_t>& ids, const std::vector<FloatB
     places[i] = {code, ids[i]};
   });
   tbb::parallel_sort(places.begin(), places.end());
-  tbb::parallel_for(std::size_t{0}, ids.size(), [&](std::size_t i) {
-    ids_[i] = places[i].id;
-    boxes_[i] = boxes[ids_[i]];
-  });
-  bound(1);
-}
 
-// Finds the box of a node and of all below it.
-void BoxTree::bound(std::size_t node) {
-  FloatBox& box = nodes_[node];
-  box = FloatBox::none();
-  if (node >= leaf_count()) {
-    const std::size_t leaf = node - leaf_count();
-    for (std::size_t i = begin_of(leaf); i < begin_of(leaf + 1); ++i) box.include(boxes_[i]);
-    return;
+  levels_.emplace_back((ids.size() + kSize - 1) / kSize);
+  tbb::parallel_for(std::size_t{0}, levels_[0].size(), [&](std::size_t leaf) {
+    const std::size_t begin = kSize * leaf;
+    for (std::size_t i = begin; i < std::min(begin + kSize, ids.size()); ++i) {
+      ids_[i] = places[i].id;
+      levels_[0][leaf].set(i - begin, boxes[ids_[i]]);
+    }
+  });
+  while (levels_.back().size() > 1) {
+    const std::vector<EightBoxes>& below = levels_.back();
+    std::vector<EightBoxes> level((below.size() + kSize - 1) / kSize);
+    tbb::parallel_for(std::size_t{0}, level.size(), [&](std::size_t node) {
+      const std::size_t begin = kSize * node;
+      for (std::size_t i = begin; i < std::min(begin + kSize, below.size()); ++i) {
+        level[node].set(i - begin, below[i].around());
+      }
+    });
+    levels_.push_back(std::move(level));
   }
-  const auto left = [&] { bound(2 * node); };
-  const auto right = [&] { bound(2 * node + 1); };
-  if (node < leaf_count() / kParallelSize) {
-    tbb::parallel_invoke(left, right);
-  } else {
-    left();
-    right();
-  }
-  box.include(nodes_[2 * node]);
-  box.include(nodes_[2 * node + 1]);
 }
 
 void BoxTree::replace(std::size_t place, const FloatBox& box) {
-  boxes_[place] = box;
-  // The last leaf that begins at or before the place (see begin_of).
-  const std::size_t leaf = (((place + 1) << depth_) - 1) / ids_.size();
-  FloatBox bounds = FloatBox::none();
-  for (std::size_t i = begin_of(leaf); i < begin_of(leaf + 1); ++i) bounds.include(boxes_[i]);
-  for (std::size_t node = leaf_count() + leaf;;) {
-    if (nodes_[node].low == bounds.low && nodes_[node].high == bounds.high) return;
-    nodes_[node] = bounds;
-    if (node == 1) return;
-    bounds.include(nodes_[node ^ 1U]);
-    node /= 2;
+  FloatBox bounds = box;
+  for (std::vector<EightBoxes>& level : levels_) {
+    EightBoxes& node = level[place / kSize];
+    node.set(place % kSize, bounds);
+    bounds = node.around();
+    place /= kSize;
   }
 }
 

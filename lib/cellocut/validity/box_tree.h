@@ -1,20 +1,25 @@
-// A balanced binary tree of axis-aligned boxes over their order along a Morton curve (Lauterbach,
-// Garland, Sengupta, Luebke, Manocha, "Fast BVH construction on GPUs", 2009): sorting once is
-// cheaper than to split at medians, and what the boxes overlap more is less than that.
+// A tree of axis-aligned boxes over their order along a Morton curve (Lauterbach, Garland,
+// Sengupta, Luebke, Manocha, "Fast BVH construction on GPUs", 2009): sorting once is cheaper than
+// to split at medians, and what the boxes overlap more is less than that.
 //
-// The tree is complete: all leaves lie at one depth and hold up to eight boxes each, so that nodes
-// are numbered as in a heap (root 1, children 2i and 2i + 1) and need no pointers. It depends on
-// the boxes alone, not on the number of threads.
+// Every node has eight children, which one step compares with a box (as in Wald, Benthin, Boulos,
+// "Getting rid of packets", 2008). All leaves lie at one depth, so that the children of a node are
+// known by its number. The tree depends on the boxes alone, not on the number of threads.
 #pragma once
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <limits>
 #include <span>
 #include <vector>
+
+#ifdef __SSE2__
+#include <emmintrin.h>
+#endif
 
 namespace cellocut {
 
@@ -54,15 +59,70 @@ inline bool overlap(const FloatBox& a, const FloatBox& b) {
   return (meet[0] & meet[1]) == -1;
 }
 
+// The boxes of the children of a node, coordinate by coordinate.
+class EightBoxes {
+ public:
+  static constexpr std::size_t kSize = 8;
+
+  EightBoxes() {
+    for (std::size_t i = 0; i < kSize; ++i) set(i, FloatBox::none());
+  }
+  void set(std::size_t i, const FloatBox& box) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      low_[i / 4][axis][i % 4] = box.low[axis];
+      high_[i / 4][axis][i % 4] = box.high[axis];
+    }
+  }
+  [[nodiscard]] FloatBox operator[](std::size_t i) const {
+    const auto& low = low_[i / 4];
+    const auto& high = high_[i / 4];
+    return {{low[0][i % 4], low[1][i % 4], low[2][i % 4], 0},
+            {high[0][i % 4], high[1][i % 4], high[2][i % 4], 0}};
+  }
+
+  [[nodiscard]] FloatBox around() const {
+    FloatBox box = FloatBox::none();
+    for (std::size_t i = 0; i < kSize; ++i) box.include((*this)[i]);
+    return box;
+  }
+
+  // Calls visit(i) for each box from `first` on that overlaps the given one, in order.
+  template <class Visit>
+  void overlapping(const FloatBox& box, std::size_t first, const Visit& visit) const {
+    unsigned mask = (four_overlap(box, 0) | four_overlap(box, 1) << 4U) >> first << first;
+    for (; mask != 0; mask &= mask - 1) visit(static_cast<std::size_t>(std::countr_zero(mask)));
+  }
+
+ private:
+  // A vector type of GCC and Clang, which is a register of any 64-bit machine.
+  using Lanes __attribute__((vector_size(4 * sizeof(float)))) = float;
+
+  // By bits, which of the four boxes of a half overlap the given one.
+  [[nodiscard]] unsigned four_overlap(const FloatBox& box, std::size_t half) const {
+    const auto meet = (low_[half][0] <= box.high[0]) & (high_[half][0] >= box.low[0]) &
+                      (low_[half][1] <= box.high[1]) & (high_[half][1] >= box.low[1]) &
+                      (low_[half][2] <= box.high[2]) & (high_[half][2] >= box.low[2]);
+#ifdef __SSE2__
+    return static_cast<unsigned>(_mm_movemask_ps(reinterpret_cast<__m128>(meet)));
+#else
+    return (meet[0] & 1U) | (meet[1] & 2U) | (meet[2] & 4U) | (meet[3] & 8U);
+#endif
+  }
+
+  std::array<std::array<Lanes, 3>, 2> low_;  // by half and axis
+  std::array<std::array<Lanes, 3>, 2> high_;
+};
+
 class BoxTree {
  public:
   // The boxes `boxes[id]` of the given ids. O(n log n), parallel. Precondition: ids is not empty.
   BoxTree(const std::vector<std::uint32_t>& ids, const std::vector<FloatBox>& boxes);
 
-  [[nodiscard]] std::size_t leaf_count() const { return std::size_t{1} << depth_; }
+  [[nodiscard]] std::size_t leaf_count() const { return levels_[0].size(); }
 
   [[nodiscard]] std::span<const std::uint32_t> ids_of_leaf(std::size_t leaf) const {
-    return {ids_.data() + begin_of(leaf), ids_.data() + begin_of(leaf + 1)};
+    const std::size_t begin = kSize * leaf;
+    return {ids_.data() + begin, std::min(kSize, ids_.size() - begin)};
   }
 
   // All ids in the order of the leaves: `ids()[place]`.
@@ -78,74 +138,63 @@ class BoxTree {
   // each overlapping pair once.
   template <class Visit>
   void visit_pairs_of_leaf(std::size_t leaf, const Visit& visit) const {
-    const std::size_t node = leaf_count() + leaf;
-    const std::size_t begin = begin_of(leaf);
-    const std::size_t end = begin_of(leaf + 1);
-    for (std::size_t i = begin; i < end; ++i) {
-      for (std::size_t j = i + 1; j < end; ++j) {
-        if (overlap(boxes_[i], boxes_[j])) visit(i - begin, ids_[j]);
-      }
+    const EightBoxes& own = levels_[0][leaf];
+    const std::size_t count = ids_of_leaf(leaf).size();
+    for (std::size_t i = 0; i < count; ++i) {
+      own.overlapping(own[i], i + 1, [&](std::size_t j) { visit(i, ids_[kSize * leaf + j]); });
     }
     // Later leaves lie below the right siblings of the nodes on the way up.
-    const FloatBox& box = nodes_[node];
-    for (std::size_t ancestor = node; ancestor > 1; ancestor /= 2) {
-      if ((ancestor & 1U) != 0) continue;
-      descend(
-          ancestor + 1, [&](std::size_t other) { return overlap(nodes_[other], box); },
-          [&](std::size_t other) {
-            const std::size_t other_end = begin_of(other + 1);
-            for (std::size_t i = begin; i < end; ++i) {
-              if (!overlap(boxes_[i], nodes_[leaf_count() + other])) continue;
-              for (std::size_t j = begin_of(other); j < other_end; ++j) {
-                if (overlap(boxes_[i], boxes_[j])) visit(i - begin, ids_[j]);
-              }
-            }
+    const FloatBox box = own.around();
+    std::size_t node = leaf;
+    for (std::size_t level = 1; level < levels_.size(); ++level, node /= kSize) {
+      const std::size_t parent = node / kSize;
+      levels_[level][parent].overlapping(box, node % kSize + 1, [&](std::size_t child) {
+        const std::size_t sibling = kSize * parent + child;
+        descend(level - 1, sibling, box, &always, [&](std::size_t other) {
+          const EightBoxes& others = levels_[0][other];
+          own.overlapping(levels_[1][other / kSize][other % kSize], 0, [&](std::size_t i) {
+            others.overlapping(own[i], 0,
+                               [&](std::size_t j) { visit(i, ids_[kSize * other + j]); });
           });
+        });
+      });
     }
   }
 
-  // Calls visit(id) for each box for which `wanted(box)` holds; `wanted` must hold for a box that
-  // contains one for which it holds.
+  // Calls visit(id) for each box that overlaps the given one and for which `wanted(box)` holds;
+  // `wanted` must hold for a box that contains one for which it holds.
   template <class Wanted, class Visit>
-  void visit_boxes(const Wanted& wanted, const Visit& visit) const {
-    descend(
-        1, [&](std::size_t node) { return wanted(nodes_[node]); },
-        [&](std::size_t leaf) {
-          for (std::size_t i = begin_of(leaf); i < begin_of(leaf + 1); ++i) {
-            if (wanted(boxes_[i])) visit(ids_[i]);
-          }
-        });
+  void visit_boxes(const FloatBox& box, const Wanted& wanted, const Visit& visit) const {
+    descend(levels_.size() - 1, 0, box, wanted, [&](std::size_t leaf) {
+      levels_[0][leaf].overlapping(box, 0, [&](std::size_t i) {
+        if (wanted(levels_[0][leaf][i])) visit(ids_[kSize * leaf + i]);
+      });
+    });
   }
 
  private:
-  void bound(std::size_t node);
+  static constexpr std::size_t kSize = EightBoxes::kSize;
+  static bool always(const FloatBox& /*box*/) { return true; }
 
-  [[nodiscard]] std::size_t begin_of(std::size_t leaf) const {
-    return ids_.size() * leaf >> depth_;
-  }
-
-  // Depth first below and from `top` through the nodes for which enter(node) holds; at_leaf(leaf).
-  template <class Enter, class AtLeaf>
-  void descend(std::size_t top, const Enter& enter, const AtLeaf& at_leaf) const {
-    std::size_t node = top;
-    for (;;) {
-      if (enter(node)) {
-        if (node < leaf_count()) {
-          node *= 2;
-          continue;
-        }
-        at_leaf(node - leaf_count());
-      }
-      while (node != top && (node & 1U) != 0) node /= 2;  // a right child is done: so is its parent
-      if (node == top) return;
-      ++node;
+  // Depth first to the leaves below a node whose boxes overlap the given one and are wanted.
+  template <class Wanted, class AtLeaf>
+  void descend(std::size_t level, std::size_t node, const FloatBox& box, const Wanted& wanted,
+               const AtLeaf& at_leaf) const {
+    if (level == 0) {
+      at_leaf(node);
+      return;
     }
+    const EightBoxes& children = levels_[level][node];
+    children.overlapping(box, 0, [&](std::size_t child) {
+      if (!wanted(children[child])) return;
+      descend(level - 1, kSize * node + child, box, wanted, at_leaf);
+    });
   }
 
-  unsigned depth_ = 0;
   std::vector<std::uint32_t> ids_;  // in the order of the leaves
-  std::vector<FloatBox> boxes_;     // in the order of the leaves
-  std::vector<FloatBox> nodes_;     // as a heap, from 1
+  // Child c of node i on level k: on level 0 the box at place 8 i + c, above it node 8 i + c of
+  // level k - 1. The last level is one node.
+  std::vector<std::vector<EightBoxes>> levels_;
 };
 
 }  // namespace cellocut

@@ -144,29 +144,15 @@ class Search {
     return {frame_(points_[t[0]]), frame_(points_[t[1]]), frame_(points_[t[2]])};
   }
 
-  void test(std::uint32_t f, std::uint32_t g, PairList& found) const {
-    if (faces_intersect(points_, triangles_[f], triangles_[g])) found.add(f, g, max_pairs_);
-  }
-
   void search_within(const BoxTree& tree, std::size_t members) {
-    const tbb::blocked_range<std::size_t> leaves(0, tree.leaf_count(), 64);
-    tbb::parallel_for(leaves, [&](const auto& range) {
-      observer_.check();
-      PairList& found = found_.local();
-      std::vector<PreparedFace> prepared;
-      for (std::size_t leaf = range.begin(); leaf < range.end(); ++leaf) {
-        const std::span<const std::uint32_t> faces = tree.ids_of_leaf(leaf);
-        prepared.clear();
-        for (const std::uint32_t face : faces) prepared.emplace_back(points_, triangles_[face]);
-        tree.visit_pairs_of_leaf(leaf, [&](std::size_t place, std::uint32_t other) {
-          if (prepared[place].certainly_apart(points_, triangles_[other])) return;
-          test(faces[place], other, found);
+    const double share = static_cast<double>(members) / static_cast<double>(tree.leaf_count());
+    visit_intersecting_pairs(
+        tree, points_, triangles_,
+        [this](std::uint32_t f, std::uint32_t g) { found_.local().add(f, g, max_pairs_); },
+        [this, share](std::size_t leaves) {
+          observer_.check();
+          report(share * static_cast<double>(leaves));
         });
-      }
-      const double share =
-          static_cast<double>(range.size()) / static_cast<double>(tree.leaf_count());
-      report(share * static_cast<double>(members));
-    });
   }
 
   void search_between(const std::vector<std::uint32_t>& large, const std::vector<FloatBox>& boxes,
@@ -179,8 +165,11 @@ class Search {
         const auto [a, b, c] = frame_corners(face);
         const FacePlane plane(a, b, c);
         small.visit_boxes(
-            [&](const FloatBox& box) { return overlap(box, boxes[face]) && plane.may_cut(box); },
-            [&](std::uint32_t other) { test(face, other, found); });
+            boxes[face], [&](const FloatBox& box) { return plane.may_cut(box); },
+            [&](std::uint32_t other) {
+              if (!faces_intersect(points_, triangles_[face], triangles_[other])) return;
+              found.add(face, other, max_pairs_);
+            });
       }
     });
   }
@@ -226,6 +215,28 @@ IntersectingPairs find_intersecting_pairs(const std::vector<Point3>& points,
   }
   if (faces.empty()) return {};
   return Search(points, triangles, std::move(faces), max_pairs, observer).run();
+}
+
+void visit_intersecting_pairs(const BoxTree& tree, const std::vector<Point3>& points,
+                              const std::vector<Triangle>& triangles,
+                              const std::function<void(std::uint32_t, std::uint32_t)>& found,
+                              const std::function<void(std::size_t)>& done) {
+  const tbb::blocked_range<std::size_t> leaves(0, tree.leaf_count(), 64);
+  tbb::parallel_for(leaves, [&](const auto& range) {
+    std::vector<PreparedFace> prepared;
+    for (std::size_t leaf = range.begin(); leaf < range.end(); ++leaf) {
+      const std::span<const std::uint32_t> faces = tree.ids_of_leaf(leaf);
+      prepared.clear();
+      for (const std::uint32_t face : faces) prepared.emplace_back(points, triangles[face]);
+      tree.visit_pairs_of_leaf(leaf, [&](std::size_t place, std::uint32_t other) {
+        if (prepared[place].certainly_apart(points, triangles[other])) return;
+        if (faces_intersect(points, triangles[faces[place]], triangles[other])) {
+          found(faces[place], other);
+        }
+      });
+    }
+    done(range.size());
+  });
 }
 
 }  // namespace cellocut

@@ -2,11 +2,13 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <utility>
 #include <vector>
 
 #include "cellocut/base/observer.h"
 #include "cellocut/mesh/triangle_soup.h"
+#include "cellocut/validity/box_tree.h"
 
 namespace cellocut {
 
@@ -34,5 +36,14 @@ IntersectingPairs find_intersecting_pairs(const std::vector<Point3>& points,
                                           const std::vector<Triangle>& triangles,
                                           const std::vector<std::uint8_t>& takes_part,
                                           std::size_t max_pairs, Observer& observer);
+
+// The same search over the faces of one tree that is already there: calls found(f, g) once for
+// each intersecting pair, from any thread and in any order, and done(leaves) when these many more
+// leaves have been searched. Both may throw to end the search. Preconditions as above; the box of
+// each face of the tree contains it.
+void visit_intersecting_pairs(const BoxTree& tree, const std::vector<Point3>& points,
+                              const std::vector<Triangle>& triangles,
+                              const std::function<void(std::uint32_t, std::uint32_t)>& found,
+                              const std::function<void(std::size_t)>& done);
 
 }  // namespace cellocut

@@ -5,6 +5,8 @@
 
 #include <random>
 
+#include "support/defective_meshes.h"
+
 namespace cellocut {
 namespace {
 
@@ -59,6 +61,22 @@ TEST(NearestTriangle, KeepsToTheLimit) {
   EXPECT_EQ(found.face, 0U) << "the lower of two at the same distance";
   EXPECT_EQ(found.point, (Point3{0.25, 0.25, 0}));
   EXPECT_EQ(found.distance, 2);
+}
+
+TEST(NearestTriangle, SeparatesWhatLiesOnBothSidesOfAFace) {
+  const NearestTriangle sphere(test::icosphere(3));
+  EXPECT_TRUE(sphere.may_separate({0.9, 0.1, 0.2}, {1.2, 0.1, 0.2}));
+  EXPECT_FALSE(sphere.may_separate({0.2, 0.1, 0.2}, {0.5, 0.1, 0.2}));
+  EXPECT_FALSE(sphere.may_separate({1.05, -0.3, 0.1}, {1.05, 0.3, 0.1})) << "outside";
+  // Corner to corner and along an edge: it touches, so it may.
+  const TriangleSoup soup = test::icosphere(1);
+  const NearestTriangle coarse(soup);
+  for (const Triangle& t : soup.triangles) {
+    const Point3 corner = soup.points[t[0]];
+    EXPECT_TRUE(coarse.may_separate(0.9 * corner, 1.1 * corner));
+    EXPECT_TRUE(coarse.may_separate(corner, soup.points[t[1]]));
+    EXPECT_FALSE(coarse.may_separate(1.1 * corner, 1.2 * corner));
+  }
 }
 
 TEST(NearestTriangle, OfNothingIsNotFound) {

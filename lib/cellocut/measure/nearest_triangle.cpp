@@ -8,6 +8,7 @@
 #include <numeric>
 #include <vector>
 
+#include "cellocut/base/predicates.h"
 #include "cellocut/measure/embree_scene.h"
 
 namespace cellocut {
@@ -81,35 +82,90 @@ struct NearestTriangle::Scene {
     set_embree_bounds(*arguments->bounds_o, box);
   }
 
-  struct Query {
-    const Scene* scene;
-    Point3 p;  // in the frame
-    double slack;
-    double squared = std::numeric_limits<double>::infinity();
-    std::uint32_t primitive = NearestPoint::kNone;
-    Point3 point{};
+  // Sees each triangle that may lie within `radius`; may lower that, and then returns true.
+  class Search {
+   public:
+    virtual bool visit(std::uint32_t primitive, float& radius) = 0;
 
-    [[nodiscard]] float radius() const {
-      return static_cast<float>(std::sqrt(squared) * (1 + kEmbreeRounding) + slack);
-    }
+   protected:
+    ~Search() = default;
   };
 
+  void run(Search& search, const Point3& p, float radius) const {
+    embree.query(p, radius, &search);
+  }
+
   static bool visit(RTCPointQueryFunctionArguments* arguments) {
-    auto& query = *static_cast<Query*>(arguments->userPtr);
-    const std::uint32_t primitive = arguments->primID;
-    const std::array<Point3, 3>& t = query.scene->corners[primitive];
-    const Point3 point = nearest_on_triangle(query.p, t[0], t[1], t[2]);
-    const double squared = squared_norm(query.p - point);
-    const bool nearer = squared < query.squared;
-    if (!nearer && !(squared == query.squared && primitive < query.primitive)) return false;
-    query.squared = squared;
-    query.primitive = primitive;
-    query.point = point;
-    if (!nearer) return false;
-    arguments->query->radius = std::min(arguments->query->radius, query.radius());
-    return true;
+    return static_cast<Search*>(arguments->userPtr)
+        ->visit(arguments->primID, arguments->query->radius);
   }
 };
+
+namespace {
+
+// All in the frame.
+template <class Scene>
+class Nearest final : public Scene::Search {
+ public:
+  Nearest(const Scene& scene, const Point3& p, double limit)
+      : scene_(scene), p_(p), slack_(embree_slack(p)), squared(limit * limit) {}
+
+  [[nodiscard]] float radius() const {
+    return static_cast<float>(std::sqrt(squared) * (1 + kEmbreeRounding) + slack_);
+  }
+
+  bool visit(std::uint32_t candidate, float& radius) override {
+    const std::array<Point3, 3>& t = scene_.corners[candidate];
+    const Point3 nearest = nearest_on_triangle(p_, t[0], t[1], t[2]);
+    const double candidate_squared = squared_norm(p_ - nearest);
+    const bool nearer = candidate_squared < squared;
+    if (!nearer && !(candidate_squared == squared && candidate < primitive)) return false;
+    squared = candidate_squared;
+    primitive = candidate;
+    point = nearest;
+    if (!nearer) return false;
+    radius = std::min(radius, this->radius());
+    return true;
+  }
+
+ private:
+  const Scene& scene_;
+  Point3 p_;
+  double slack_;
+
+ public:
+  double squared;
+  std::uint32_t primitive = NearestPoint::kNone;
+  Point3 point{};
+};
+
+template <class Scene>
+class Separation final : public Scene::Search {
+ public:
+  Separation(const Scene& scene, const Point3& p, const Point3& q) : scene_(scene), p_(p), q_(q) {}
+
+  bool visit(std::uint32_t candidate, float& radius) override {
+    if (found) return false;
+    const auto& [a, b, c] = scene_.corners[candidate];
+    if (orientation(a, b, c, p_) * orientation(a, b, c, q_) > 0) return false;
+    // The line through p and q passes all edges on the same side, or touches some.
+    const int ab = orientation(p_, q_, a, b);
+    const int bc = orientation(p_, q_, b, c);
+    const int ca = orientation(p_, q_, c, a);
+    found = std::max({ab, bc, ca}) <= 0 || std::min({ab, bc, ca}) >= 0;
+    if (found) radius = 0;
+    return found;
+  }
+
+  bool found = false;
+
+ private:
+  const Scene& scene_;
+  Point3 p_;
+  Point3 q_;
+};
+
+}  // namespace
 
 NearestTriangle::Scene::Scene(const TriangleSoup& soup) {
   for (std::uint32_t f = 0; f < soup.triangles.size(); ++f) {
@@ -146,15 +202,24 @@ NearestPoint NearestTriangle::operator()(const Point3& p, double limit) const {
   NearestPoint result;
   if (!is_finite(p)) return result;
   const Point3 q = s.frame(p);
-  Scene::Query query{.scene = &s, .p = q, .slack = embree_slack(q)};
-  const double scaled_limit = limit / s.frame.unit;
-  query.squared = scaled_limit * scaled_limit;
-  s.embree.query(q, query.radius(), &query);
-  if (query.primitive == NearestPoint::kNone) return result;
-  result.face = s.face[query.primitive];
-  result.point = s.frame.centre + s.frame.unit * query.point;
-  result.distance = std::sqrt(query.squared) * s.frame.unit;
+  Nearest<Scene> search(s, q, limit / s.frame.unit);
+  s.run(search, q, search.radius());
+  if (search.primitive == NearestPoint::kNone) return result;
+  result.face = s.face[search.primitive];
+  result.point = s.frame.centre + s.frame.unit * search.point;
+  result.distance = std::sqrt(search.squared) * s.frame.unit;
   return result;
+}
+
+bool NearestTriangle::may_separate(const Point3& p, const Point3& q) const {
+  const Scene& s = *scene_;
+  const Point3 from = s.frame(p);
+  const Point3 to = s.frame(q);
+  const Point3 middle = 0.5 * (from + to);
+  const double half = 0.5 * std::sqrt(squared_norm(to - from));
+  Separation<Scene> search(s, from, to);
+  s.run(search, middle, static_cast<float>(half * (1 + kEmbreeRounding) + embree_slack(middle)));
+  return search.found;
 }
 
 }  // namespace cellocut

@@ -41,6 +41,11 @@ class NearestTriangle {
   [[nodiscard]] NearestPoint operator()(
       const Point3& p, double limit = std::numeric_limits<double>::infinity()) const;
 
+  // Whether a triangle may lie between p and q: false only where the segment meets none. (It may
+  // say so of a segment that lies in the plane of a triangle nearby.) As above; meant for segments
+  // that are short against the triangles.
+  [[nodiscard]] bool may_separate(const Point3& p, const Point3& q) const;
+
  private:
   struct Scene;
   std::unique_ptr<Scene> scene_;

@@ -22,7 +22,7 @@ struct PullReport {
   double distance = 0;  // asked for, in input units
   std::int64_t vertices = 0;
   std::int64_t supported = 0;
-  std::int64_t shifted = 0;             // of the supported: along a face, to a concave crease
+  std::int64_t shifted = 0;             // of the supported: slid into a concave crease
   std::int64_t stopped_early = 0;       // of the supported: moved, but less than asked
   std::int64_t went_back = 0;           // of the supported: not moved in the end
   std::int64_t bad_faces_at_first = 0;  // that were degenerate or intersected before the retreat
@@ -32,10 +32,11 @@ struct PullReport {
 
 // Moves every supported vertex of `surface` (input units) towards its nearest point on the input
 // until `distance` is left; those nearer than that stay. Each side of a sheet keeps to its own side
-// of it, as no vertex passes its nearest point. Then vertices at concave creases of the input slide
-// along their faces until the crease is even. Vertices retreat (retreat.h) where the surface
-// would not stay valid. `expected` is how far supported vertices are from the input, about (the
-// search begins there). Precondition: the surface is valid. O(n log n). Errors: Cancelled.
+// of it, as no vertex passes its nearest point. Vertices at concave creases of the input slide
+// further, towards the bottom of the crease (crease_slide.h). Vertices retreat (retreat.h) where
+// the surface would not stay valid. `expected` is how far supported vertices are from the input,
+// about (the search begins there). Precondition: the surface is valid. O(n log n). Errors:
+// Cancelled.
 PullReport pull_to_input(TriangleSoup& surface, const std::vector<std::uint8_t>& supported,
                          const NearestTriangle& input, double expected, double distance,
                          Observer& observer);

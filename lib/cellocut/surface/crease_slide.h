@@ -1,0 +1,53 @@
+// Where the pull would leave a bevel in a concave crease of the input.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "cellocut/measure/nearest_triangle.h"
+#include "cellocut/mesh/triangle_soup.h"
+
+namespace cellocut {
+
+// Where a supported vertex is pulled to: some way from its nearest point on the input.
+struct PullTarget {
+  Point3 nearest{};    // on the input
+  Point3 direction{};  // from there to the vertex, of length 1; 0 where it stays
+};
+
+// In a concave corner, groove or slot of the input the surface before the pull has a crease, at
+// `offset` from both sides. The vertices next to it are pulled to different sides, and between them
+// a bevel remains, some `offset` wide and with the teeth of the grid. So they slide down their
+// sides together, towards the bottom, up to a tenth of their way to it: what was a strip of the
+// crease's neighbourhood keeps its order, and the bevel shrinks.
+class CreaseSlide {
+ public:
+  // `surface`: before the pull; targets: by vertex; `offset`: the distance of supported vertices
+  // from the input now, about, and `distance` that which the pull leaves. All of them must outlive
+  // this. O(n).
+  CreaseSlide(const TriangleSoup& surface, const std::vector<PullTarget>& targets,
+              const NearestTriangle& input, double offset, double distance);
+
+  // Where the vertex slides from `to`, its place after the pull; `to` itself where it is not at a
+  // crease. It goes at most twice `offset`, keeps to its side, at `distance` from it, and away from
+  // all others. May be called from several threads. O(log n).
+  [[nodiscard]] Point3 operator()(std::uint32_t vertex, const Point3& to) const;
+
+ private:
+  struct End {
+    Point3 place;
+    double length = 0;  // of the way to it
+  };
+
+  void consider(std::uint32_t vertex, std::uint32_t other);
+  [[nodiscard]] End slide(std::uint32_t vertex, const Point3& from, double limit) const;
+
+  const TriangleSoup& surface_;
+  const std::vector<PullTarget>& targets_;
+  const NearestTriangle& input_;
+  double offset_;
+  double distance_;
+  std::vector<std::uint32_t> partner_;  // by vertex: one across the crease, or kNone
+};
+
+}  // namespace cellocut

@@ -9,9 +9,9 @@ namespace cellocut {
 
 namespace {
 
-constexpr double kReach = 2.5;       // of a node, in spacings
+constexpr double kReach = 2.5;          // of a node, in spacings
 constexpr std::size_t kLeastNodes = 9;  // for the six coefficients of a quadratic
-constexpr double kLeastPivot = 1e-4;  // of the least squares; the largest is about 1
+constexpr double kLeastPivot = 1e-4;    // of the least squares; the largest is about 1
 
 using Quadratic = Eigen::Matrix<double, 6, 1>;
 

@@ -27,8 +27,8 @@ constexpr double kGuardOfClearance = 0.5;
 constexpr double kToleratedExcess = 0.1;
 constexpr double kPinStiffness = 10;  // per step; the bending term of one vertex has about 7
 constexpr int kMostPinningPasses = 3;
-constexpr int kFineRings = 2;        // of completed vertices at the rim and at pins
-constexpr double kNodeSpacing = 4;   // steps
+constexpr int kFineRings = 2;       // of completed vertices at the rim and at pins
+constexpr double kNodeSpacing = 3;  // steps
 constexpr int kSpreadingSweeps = 5;
 constexpr double kAcceptedGrowth = 1.2;  // of the bending energy in a round
 constexpr double kSettledMove = 0.05;    // steps; a round that moves no vertex further is the last
@@ -147,7 +147,6 @@ class PatchFairing {
     // On a hexagonal lattice with edges of length 1 the sum over edges is 3/2 of the Laplacian.
     const double anchor = 1.5 / (length * length);
     if (!relax_membrane(rows_, is_free, anchor, points_)) return false;
-    is_fine_.clear();
     stop_short_of_input(nullptr);
     return true;
   }
@@ -173,8 +172,8 @@ class PatchFairing {
   }
 
   // Where something holds the surface, and some rings around, each vertex keeps a move of its own;
-  // the basis for the others is made anew only where pins have come to be among them, or the
-  // surface is another. Returns whether it was.
+  // the basis for the others is made anew only where pins have come to be among them. Returns
+  // whether it was.
   bool update_basis(const std::vector<DataTerm>& data, const std::vector<Point3>& normals) {
     std::vector<std::uint8_t> holds(patch_.movable);
     bool is_up_to_date = !is_fine_.empty();
@@ -222,6 +221,7 @@ class PatchFairing {
                          .offset = dot(points_[i] - start_[i], away),
                          .slope = dot(normals[i], away)};
     }
+    is_fine_.clear();
     std::vector<double> moves(patch_.movable, 0.0);
     std::vector<double> bounded(patch_.movable, 0.0);
     NormalBending bending(rows_, curvature, patch_.movable);

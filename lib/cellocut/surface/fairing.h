@@ -27,7 +27,7 @@ struct FairingOptions {
   // Over which length, in steps, the facets of the cut are smoothed before the bending energy is
   // looked at; above 0.
   double smoothing_steps = 4;
-  int rounds = 3;          // times that the bending energy is linearised anew; 0 to 100
+  int rounds = 3;           // times that the bending energy is linearised anew; 0 to 100
   int max_iterations = 30;  // of the solver in each round; 1 to 1000
 
   // Errors: UsageError that names the field and what it may be.

@@ -2,9 +2,9 @@
 
 #include <ceres/ceres.h>
 
-#include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace cellocut {
 
@@ -12,8 +12,9 @@ namespace {
 
 using Vector = Eigen::VectorXd;
 using Matrix = Eigen::SparseMatrix<double>;
+using Factors = Eigen::SimplicialLLT<Matrix>;
 
-constexpr int kSmoothingSteps = 20;  // waves of up to some 8 steps, between which nodes cannot see
+constexpr int kSmoothingSteps = 30;  // waves of up to some 8 steps, between which nodes cannot see
 // Of the largest entry: a node at the border of what follows it may hardly be felt.
 constexpr double kRegularisation = 1e-10;
 
@@ -85,17 +86,19 @@ struct RobustTerms {
 // of the Hessian without the robust loss.
 class ReducedEnergy final : public ceres::FirstOrderFunction {
  public:
-  // `residual` of the bending and `moves`: where all unknowns are 0.
-  ReducedEnergy(const NormalProblem& problem, const RowMatrix& basis, const RowMatrix& reduced,
-                const Matrix& hessian, const Vector& residual, const Vector& moves)
+  // `residual` of the bending, and the `data`, where all unknowns are 0. `factors` know the pattern
+  // of the Hessian of the bending; a data term couples no unknowns that the bending does not.
+  ReducedEnergy(const RowMatrix& reduced, const Matrix& hessian, const Vector& residual,
+                RobustTerms data, Factors& factors)
       : hessian_(hessian),
-        data_(problem, basis, moves),
+        data_(std::move(data)),
         force_(reduced.transpose() * residual),
-        constant_(residual.squaredNorm()) {
+        constant_(residual.squaredNorm()),
+        factors_(factors) {
     Matrix full = hessian;
     if (!data_.offset.empty()) full += Matrix(data_.slope.transpose() * data_.slope);
     factors_.setShift(kRegularisation * Vector(full.diagonal()).maxCoeff());
-    factors_.compute(full);
+    factors_.factorize(full);
   }
 
   [[nodiscard]] bool is_usable() const { return factors_.info() == Eigen::Success; }
@@ -123,7 +126,7 @@ class ReducedEnergy final : public ceres::FirstOrderFunction {
   RobustTerms data_;
   Vector force_;
   double constant_;
-  Eigen::SimplicialLLT<Matrix> factors_;
+  Factors& factors_;
 };
 
 }  // namespace
@@ -145,13 +148,15 @@ void NormalBending::use_basis(const RowMatrix& basis) {
   basis_ = &basis;
   reduced_ = jacobian_ * basis;
   hessian_ = reduced_.transpose() * reduced_;
+  factors_.analyzePattern(hessian_);
 }
 
-void NormalBending::minimise(const NormalProblem& problem, std::vector<double>& moves) const {
+void NormalBending::minimise(const NormalProblem& problem, std::vector<double>& moves) {
   Vector u = Eigen::Map<const Vector>(moves.data(), static_cast<Eigen::Index>(moves.size()));
   const Vector residual = constant_ + jacobian_ * u;
   // Owned by the problem of Ceres.
-  auto* energy = new ReducedEnergy(problem, *basis_, reduced_, hessian_, residual, u);
+  auto* energy =
+      new ReducedEnergy(reduced_, hessian_, residual, RobustTerms(problem, *basis_, u), factors_);
   const ceres::GradientProblem ceres_problem(energy);
   if (!energy->is_usable()) return;
   Vector parameters = Vector::Zero(energy->NumParameters());

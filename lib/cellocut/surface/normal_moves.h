@@ -1,8 +1,7 @@
 // How far the vertices of a patch go along their normals to bend less. Lengths in grid steps.
 #pragma once
 
-#include <Eigen/Core>
-#include <Eigen/SparseCore>
+#include <Eigen/SparseCholesky>
 #include <cstdint>
 #include <vector>
 
@@ -46,7 +45,7 @@ class NormalBending {
   // normal equations. What the basis cannot say is of short waves, and a fixed number of conjugate
   // gradient steps for all vertices takes it away. One thread; O(n) for n vertices and O(k^1.5) for
   // k unknowns of the basis. Precondition: use_basis() was called.
-  void minimise(const NormalProblem& problem, std::vector<double>& moves) const;
+  void minimise(const NormalProblem& problem, std::vector<double>& moves);
 
  private:
   void smooth(const NormalProblem& problem, Eigen::VectorXd& moves) const;
@@ -55,8 +54,9 @@ class NormalBending {
   Eigen::VectorXd constant_;  // sqrt(area) curvature
   Eigen::VectorXd diagonal_;  // of jacobian^T jacobian
   const RowMatrix* basis_ = nullptr;
-  RowMatrix reduced_;                    // jacobian * basis
-  Eigen::SparseMatrix<double> hessian_;  // reduced^T reduced
+  RowMatrix reduced_;                                          // jacobian * basis
+  Eigen::SparseMatrix<double> hessian_;                        // reduced^T reduced
+  Eigen::SimplicialLLT<Eigen::SparseMatrix<double>> factors_;  // of it and the data terms
 };
 
 }  // namespace cellocut

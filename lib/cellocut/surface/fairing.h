@@ -74,7 +74,8 @@ struct FairingResult {
 // step, about the length of an edge; `clearance`: how far supported vertices keep from the input;
 // all in the unit of the surface. The targets are not checked for intersections. A component
 // without supported vertices is left as it is.
-// O(n) to find the patches, O(k^1.5) for one of k vertices.
+// O(n) to find the patches, for one of k vertices O(k) and two sparse factorisations a
+// round: of the membrane, and of the moves' reduced equations (displacement_basis.h).
 // Errors: UsageError (options; a `supported` of another size; a step that is not above 0; a
 // clearance below 0); Cancelled.
 FairingResult fair_completed(const TriangleSoup& surface,

@@ -10,6 +10,7 @@
 
 #include "cellocut/base/errors.h"
 #include "cellocut/surface/laplacian.h"
+#include "cellocut/surface/normal_moves.h"
 #include "cellocut/surface/patch_solvers.h"
 #include "cellocut/surface/patches.h"
 
@@ -26,6 +27,8 @@ constexpr double kGuardOfClearance = 0.5;
 constexpr double kToleratedExcess = 0.1;
 constexpr double kPinStiffness = 10;  // per step; the bending term of one vertex has about 7
 constexpr int kMostPinningPasses = 3;
+constexpr int kFineRings = 2;       // of completed vertices at the rim and at pins
+constexpr double kNodeSpacing = 3;  // steps
 constexpr int kSpreadingSweeps = 5;
 constexpr double kAcceptedGrowth = 1.2;  // of the bending energy in a round
 constexpr double kSettledMove = 0.05;    // steps; a round that moves no vertex further is the last
@@ -168,6 +171,34 @@ class PatchFairing {
     }
   }
 
+  // Where something holds the surface, and some rings around, each vertex keeps a move of its own;
+  // the basis for the others is made anew only where pins have come to be among them. Returns
+  // whether it was.
+  bool update_basis(const std::vector<DataTerm>& data, const std::vector<Point3>& normals) {
+    std::vector<std::uint8_t> holds(patch_.movable);
+    bool is_up_to_date = !is_fine_.empty();
+    for (std::uint32_t i = 0; i < patch_.movable; ++i) {
+      holds[i] = patch_.depth[i] > 0 || data[i].weight > 0 ? 1 : 0;
+      if (is_up_to_date && holds[i] != 0 && is_fine_[i] == 0) is_up_to_date = false;
+    }
+    if (is_up_to_date) return false;
+    for (int ring = 0; ring < kFineRings; ++ring) grow(holds);
+    is_fine_ = std::move(holds);
+    basis_ = make_displacement_basis(rows_, points_, normals, is_fine_, kNodeSpacing);
+    return true;
+  }
+
+  void grow(std::vector<std::uint8_t>& marked) const {
+    std::vector<std::uint8_t> grown = marked;
+    for (std::uint32_t i = 0; i < patch_.movable; ++i) {
+      for (std::uint32_t k = rows_.first[i]; k < rows_.first[i + 1]; ++k) {
+        const std::uint32_t j = rows_.column[k];
+        if (j < patch_.movable && marked[j] != 0) grown[i] = 1;
+      }
+    }
+    std::swap(marked, grown);
+  }
+
   // The input bounds the moves. Bounds are kept by an active set that only grows: who would go well
   // beyond is pinned where it has to stop, and the rest is solved again. (Bounds of Ceres itself
   // clamp each step and then shorten all of it, so that one vertex at its bound would stop the
@@ -176,14 +207,13 @@ class PatchFairing {
   double move_along_normals() {
     set_cotangent_weights(rows_, patch_, points_);
     const std::vector<Point3> normals = row_normals(patch_, points_);
-    NormalProblem problem{.rows = &rows_,
-                          .curvature = std::vector<double>(patch_.rows),
-                          .data = std::vector<DataTerm>(patch_.movable),
+    std::vector<double> curvature(patch_.rows);
+    for (std::uint32_t i = 0; i < patch_.rows; ++i) {
+      curvature[i] = dot(rows_.apply(points_, i), normals[i]);
+    }
+    NormalProblem problem{.data = std::vector<DataTerm>(patch_.movable),
                           .threshold = options_.outlier_steps,
                           .max_iterations = options_.max_iterations};
-    for (std::uint32_t i = 0; i < patch_.rows; ++i) {
-      problem.curvature[i] = dot(rows_.apply(points_, i), normals[i]);
-    }
     for (std::uint32_t i = 0; i < patch_.movable; ++i) {
       if (!is_held(i)) continue;
       const Point3& away = away_[i] == Point3{} ? normals[i] : away_[i];
@@ -191,11 +221,15 @@ class PatchFairing {
                          .offset = dot(points_[i] - start_[i], away),
                          .slope = dot(normals[i], away)};
     }
-    std::vector<double> moves;
+    is_fine_.clear();
+    std::vector<double> moves(patch_.movable, 0.0);
+    std::vector<double> bounded(patch_.movable, 0.0);
+    NormalBending bending(rows_, curvature, patch_.movable);
     bool settled = false;
     for (int pass = 0; pass < kMostPinningPasses && !settled; ++pass) {
       observer_.check();
-      moves = solve_normal_moves(problem);
+      if (update_basis(problem.data, normals) || pass == 0) bending.use_basis(basis_);
+      bending.minimise(problem, moves);
       settled = true;
       for (std::uint32_t i = 0; i < patch_.movable; ++i) {
         const double length = std::fabs(moves[i]);
@@ -207,13 +241,13 @@ class PatchFairing {
           problem.data[i] = {.weight = kPinStiffness, .offset = -bound, .slope = 1};
           settled = false;
         }
-        moves[i] = bound;
+        bounded[i] = bound;
       }
     }
     double longest = 0;
     for (std::uint32_t i = 0; i < patch_.movable; ++i) {
-      points_[i] = points_[i] + moves[i] * normals[i];
-      longest = std::max(longest, std::fabs(moves[i]));
+      points_[i] = points_[i] + bounded[i] * normals[i];
+      longest = std::max(longest, std::fabs(bounded[i]));
     }
     return longest;
   }
@@ -263,6 +297,8 @@ class PatchFairing {
   std::vector<double> guard_;   // of every movable vertex
   std::vector<Point3> away_;    // unit; zero for completed vertices and for those on the input
   LaplaceRows rows_;
+  std::vector<std::uint8_t> is_fine_;  // empty where there is no basis for the present surface
+  RowMatrix basis_;                    // of the moves
   std::int64_t stopped_ = 0;
   double bending_before_ = 0;
   double bending_after_ = 0;

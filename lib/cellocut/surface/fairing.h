@@ -27,8 +27,8 @@ struct FairingOptions {
   // Over which length, in steps, the facets of the cut are smoothed before the bending energy is
   // looked at; above 0.
   double smoothing_steps = 4;
-  int rounds = 3;          // times that the bending energy is linearised anew; 0 to 100
-  int max_iterations = 8;  // of the solver in each round; 1 to 1000
+  int rounds = 3;           // times that the bending energy is linearised anew; 0 to 100
+  int max_iterations = 30;  // of the solver in each round; 1 to 1000
 
   // Errors: UsageError that names the field and what it may be.
   void validate() const;
@@ -74,7 +74,8 @@ struct FairingResult {
 // step, about the length of an edge; `clearance`: how far supported vertices keep from the input;
 // all in the unit of the surface. The targets are not checked for intersections. A component
 // without supported vertices is left as it is.
-// O(n) to find the patches, O(k^1.5) for one of k vertices.
+// O(n) to find the patches, for one of k vertices O(k) and two sparse factorisations a
+// round: of the membrane, and of the moves' reduced equations (displacement_basis.h).
 // Errors: UsageError (options; a `supported` of another size; a step that is not above 0; a
 // clearance below 0); Cancelled.
 FairingResult fair_completed(const TriangleSoup& surface,

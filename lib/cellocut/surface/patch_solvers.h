@@ -15,26 +15,4 @@ namespace cellocut {
 bool relax_membrane(const LaplaceRows& rows, const std::vector<std::uint8_t>& is_free,
                     double anchor, std::vector<Point3>& points);
 
-// A data term: weight^2 loss(offset + slope u), loss(r) = r^2 below `threshold`, linear beyond
-// (Huber). No term where weight is 0.
-struct DataTerm {
-  double weight = 0;
-  double offset = 0;
-  double slope = 0;
-};
-
-// How far each movable vertex goes along its normal.
-struct NormalProblem {
-  const LaplaceRows* rows = nullptr;
-  std::vector<double> curvature;  // of every row before the move: 2 H, per length
-  std::vector<DataTerm> data;     // of every movable vertex
-  double threshold = 0;
-  int max_iterations = 0;
-};
-
-// The u that minimises the sum over rows of area (curvature + L u)^2 and the data terms; u = 0 on
-// fixed rows. By Ceres (Levenberg-Marquardt, sparse normal equations, one thread). Zeros where it
-// finds nothing better.
-std::vector<double> solve_normal_moves(const NormalProblem& problem);
-
 }  // namespace cellocut

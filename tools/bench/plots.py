@@ -1,7 +1,9 @@
 """SVG plots of a suite: times of the methods, and measures against the parameter that a suite varies."""
+import os
 import statistics
 
-import matplotlib
+os.environ.setdefault("MPLCONFIGDIR", os.path.abspath(".cache/matplotlib"))  # nothing outside the output folder
+import matplotlib  # pylint: disable=wrong-import-position
 
 matplotlib.use("svg")
 matplotlib.rcParams["svg.hashsalt"] = "cellocut"  # the same file for the same numbers

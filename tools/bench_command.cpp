@@ -113,7 +113,9 @@ std::vector<std::string> engine_command(const BenchArguments& a, const fs::path&
   command.insert(command.end(), {"--rerun-incomplete", "--keep-going", "--nolock",
                                  "--rerun-triggers", "mtime", "params"});
   if (a.dry_run) command.emplace_back("--dry-run");
-  if (!a.common.verbose) command.insert(command.end(), {"--quiet", "all"});
+  if (!a.common.verbose) {
+    command.insert(command.end(), {"--quiet", a.common.quiet ? "all" : "rules"});
+  }
   command.insert(command.end(), a.engine.begin(), a.engine.end());
   command.insert(command.end(), {"--config", "suite=" + suite.string(),
                                  "bin=" + own_folder().string(), "datasets=" + datasets.string()});
@@ -198,6 +200,7 @@ int run_bench(const BenchArguments& a) {
   close(lock);
   if (observer.cancelled()) throw Cancelled();
   if (a.dry_run && code == 0) return kDone;
+  if (code == kBadInput) return kBadInput;  // the workflow has said what is wrong with the suite
   if (code != 0) {
     print_error(suite.string() + ": the engine stopped (exit code " + std::to_string(code) +
                 "); what was done is kept, the same command goes on; its log is in " +

@@ -14,7 +14,7 @@ import unittest
 
 PROGRAM = os.environ["CELLOCUT_PROGRAM"]
 WORKFLOW = os.environ["CELLOCUT_WORKFLOW"]
-PATIENCE = 240  # seconds until something that must happen is missed
+PATIENCE = 400  # seconds until something that must happen is missed; Slurm waits two minutes before it begins again
 HOLED_BOX = """v 0 0 0
 v 1 0 0
 v 0 0.7 0

@@ -58,7 +58,7 @@ void expect_as_angles(const TriangleSoup& mesh, const std::vector<Point3>& point
     EXPECT_EQ(place.winding, std::lround(exact)) << p[0] << ' ' << p[1] << ' ' << p[2];
     EXPECT_EQ(place.inside, std::lround(exact) % 2 != 0);
   }
-  EXPECT_GT(compared, points.size() / 4);
+  EXPECT_GT(compared, points.size() / 5);
 }
 
 // Points below and above every corner and every middle of an edge: vertical lines hit these.

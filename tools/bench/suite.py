@@ -49,7 +49,8 @@ class Method:
         allow(limits, PEER_LIMITS, "limits")
         self.seconds = float(limits["seconds"])
         self.memory_gb = float(limits["memory_gb"])
-        self.threads = int(entry.get("threads", suite.get("threads", 1)))
+        threads = entry.get("threads", suite.get("threads", 1))
+        self.threads = len(os.sched_getaffinity(0)) if threads == "all" else int(threads)
         self.reference = entry.get("reference", suite.get("reference", "none"))
         self.evaluate = list(map(str, suite.get("evaluate", [])))
         self.evaluate_seconds = float(suite.get("measure_seconds", 1200))
@@ -133,7 +134,7 @@ class Suite:
             allow(reference, ("method",), "reference")
             if reference.get("method") not in self.methods:
                 raise SuiteError(f"{self.path}: reference of '{method.name}': no method '{reference.get('method')}'")
-            if self.methods[reference["method"]].reference != "none" and reference["method"] == method.name:
+            if reference["method"] == method.name:
                 raise SuiteError(f"{self.path}: '{method.name}' is its own reference")
         elif reference not in ("none", "input", "scan", "truth"):
             raise SuiteError(f"{self.path}: reference '{reference}' is none of none, input, scan, truth")

@@ -125,7 +125,9 @@ GreyImage grey_image(const View& view) {
 MsSsim ms_ssim(const GreyImage& a, const GreyImage& b) {
   const int scales = fitting_scales(a);
   if (scales == 0) return {};
-  const double sum = std::accumulate(kPowers.begin(), kPowers.begin() + scales, 0.0);
+  // As published, the five add up to 1.0001; they stay as they are.
+  const bool all = scales == static_cast<int>(kPowers.size());
+  const double sum = all ? 1 : std::accumulate(kPowers.begin(), kPowers.begin() + scales, 0.0);
   double product = 1;
   GreyImage first = a;
   GreyImage second = b;

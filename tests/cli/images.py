@@ -8,7 +8,7 @@ import sys
 import unittest
 import zlib
 
-from program import ProgramCase, box, obj_text, sphere
+from program import ProgramCase, box, join, obj_text, sphere
 
 DATA = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "data")
 NETWORKS = os.path.join(DATA, "networks")
@@ -95,9 +95,11 @@ class Render(ProgramCase):
         self.assertEqual((min(covered), max(covered), len(covered)), ((2, 22), (21, 31), 200))
 
     def test_options_change_the_picture(self):
+        # The nearest face of the box fills its part of the picture with and without perspective.
+        self.put("two.obj", obj_text(join(box((0.0, 0.0, 0.0), (1.0, 4.0, 4.0)), box((2.0, 0.0, 0.0), (4.0, 1.0, 2.0)))))
         seen = set()
         for more in ((), ("--up", "z"), ("--perspective", "40"), ("--perspective", "0")):
-            self.succeed("render", "box.obj", "-o", "p", "--quiet", *SMALL, *more)
+            self.succeed("render", "two.obj", "-o", "p", "--quiet", *SMALL, *more)
             seen.add(self.get("p/posx.png"))
         self.assertEqual(len(seen), 3)
 

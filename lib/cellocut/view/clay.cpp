@@ -8,11 +8,11 @@ namespace cellocut {
 
 namespace {
 
-constexpr LinearColour kFront{0.72, 0.68, 0.61};
-constexpr LinearColour kBack{0.62, 0.14, 0.06};
-constexpr double kSky = 0.62;
-constexpr double kKey = 0.62;
-constexpr double kFill = 0.12;
+constexpr LinearColour kFront{0.60, 0.56, 0.50};
+constexpr LinearColour kBack{0.60, 0.13, 0.05};
+constexpr double kSky = 0.50;
+constexpr double kKey = 0.75;
+constexpr double kFill = 0.10;
 constexpr double kReach = 0.5;        // of what dims the sky, in the frame
 constexpr double kLift = 2e-4;        // above the surface, where the look at the sky begins
 constexpr double kDarkestSky = 0.15;  // of a point that sees none of it: light finds its way

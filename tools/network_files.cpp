@@ -29,7 +29,8 @@ void set_field(NetworkInput& input, const std::string& key, const Json& value) {
   } else if (key == "outputs") {
     input.outputs = value.get<std::vector<std::string>>();
   } else {
-    throw InputError("unknown key " + cellocut::quoted(key) + "; known: size, mean, std, order, outputs");
+    throw InputError("unknown key " + cellocut::quoted(key) +
+                     "; known: size, mean, std, order, outputs");
   }
 }
 

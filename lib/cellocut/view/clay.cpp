@@ -37,12 +37,12 @@ Sky make_sky() {
 // directions is 1/4.
 double open_sky(const RayScene& scene, const Camera& camera, const Point3& from,
                 const Point3& normal, int sample, int samples) {
-  static const Sky kDirections = make_sky();
+  static const Sky directions = make_sky();
   double seen = 0;
   int asked = 0;
   for (int i = sample % samples; i < kSkyDirections; i += samples) {
     ++asked;
-    const Point3& d = kDirections[i];
+    const Point3& d = directions[i];
     const Point3 direction = d[0] * camera.right + d[1] * camera.up + d[2] * camera.back;
     const double cosine = dot(normal, direction);
     if (cosine <= 0 || scene.is_blocked({from, direction}, kReach)) continue;
@@ -55,16 +55,16 @@ double open_sky(const RayScene& scene, const Camera& camera, const Point3& from,
 
 LinearColour clay_colour(const RayScene& scene, const Camera& camera, const Ray& ray,
                          const RayScene::Hit& hit, int sample, int samples) {
-  static const Point3 kKeyDirection = unit({-0.45, 0.65, 0.75});
-  static const Point3 kFillDirection = unit({0.8, 0.05, 0.5});
+  static const Point3 key_direction = unit({-0.45, 0.65, 0.75});
+  static const Point3 fill_direction = unit({0.8, 0.05, 0.5});
   const Point3 normal = hit.front ? hit.normal : -1.0 * hit.normal;
   const Point3 seen{dot(normal, camera.right), dot(normal, camera.up), dot(normal, camera.back)};
   const Point3 from = ray.origin + hit.distance * ray.direction + kLift * normal;
   const double open = open_sky(scene, camera, from, normal, sample, samples);
   const double sky = kSky * (kDarkestSky + (1 - kDarkestSky) * open) * (0.8 + 0.2 * seen[1]);
   const double key =
-      kKey * std::max(0.0, dot(seen, kKeyDirection)) * (0.4 + 0.6 * std::min(open, 1.0));
-  const double fill = kFill * std::max(0.0, dot(seen, kFillDirection));
+      kKey * std::max(0.0, dot(seen, key_direction)) * (0.4 + 0.6 * std::min(open, 1.0));
+  const double fill = kFill * std::max(0.0, dot(seen, fill_direction));
   LinearColour colour = hit.front ? kFront : kBack;
   for (double& channel : colour) channel *= sky + key + fill;
   return colour;

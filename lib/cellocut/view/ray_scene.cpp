@@ -16,9 +16,9 @@ namespace {
 
 // Beyond this many units from the frame, single precision places nothing any more.
 constexpr double kFarthest = 1e6;
-// Candidates for the first hit lie this close behind the first that Embree found, relative to the
-// distance: some hundred units in the last place of single precision.
-constexpr float kCandidateSlack = 1e-5F;
+// How far Embree's distances may be off: some units in the last place of single precision, of the
+// coordinates and of the distance.
+float slack(float distance) { return 1e-6F + 1e-5F * std::fabs(distance); }
 // Distances are compared as multiples of this, so that coincident faces are at the same.
 constexpr double kSameDistance = 1e-9;
 
@@ -47,8 +47,7 @@ struct RayScene::Scene {
   [[nodiscard]] double distance_to(std::uint32_t face, const Ray& ray, float found) const {
     const double slope = dot(normals[face], ray.direction);
     const double distance = dot(normals[face], points[faces[face][0]] - ray.origin) / slope;
-    const double rounding = kCandidateSlack * std::fabs(found);
-    return std::fabs(distance - found) <= rounding ? distance : found;
+    return std::fabs(distance - found) <= slack(found) ? distance : found;
   }
 };
 
@@ -174,7 +173,7 @@ std::optional<RayScene::Hit> RayScene::first_hit(const Ray& ray) const {
   rtcInitIntersectContext(&search.context);
   search.context.filter = &Search::look_at;
   RTCRayHit candidates{};
-  candidates.ray = embree_ray(ray, nearest.ray.tfar * (1 + kCandidateSlack));
+  candidates.ray = embree_ray(ray, nearest.ray.tfar + slack(nearest.ray.tfar));
   candidates.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   rtcIntersect1(scene_->scene, &search.context, &candidates);
   if (std::isinf(std::get<0>(search.best))) return std::nullopt;  // at the origin itself

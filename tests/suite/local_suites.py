@@ -1,10 +1,14 @@
 """Suites on the local cores: every way to end is counted, kills are survived, wrong suites are refused."""
 import os
 import signal
+import sys
 import time
 import unittest
 
-from suite_case import OURS, SuiteCase, alive, children_of, descendants_of, wait_for
+from suite_case import HOLED_BOX, OURS, WORKFLOW, SuiteCase, alive, children_of, descendants_of, wait_for
+
+sys.path.insert(0, WORKFLOW)
+import solids  # pylint: disable=wrong-import-position,wrong-import-order
 
 
 class Outcomes(SuiteCase):
@@ -57,6 +61,28 @@ class Outcomes(SuiteCase):
             self.assertLess(results[method, "holed"]["evaluation"]["cd_p2s"], 1e-30)
         self.assertFalse(results["copy", "holed"]["check"]["valid"])
         self.assertGreater(results["copy", "holed"]["check"]["boundary_edges"], 0)
+
+    def test_scan_and_damage(self):
+        for mesh in self.meshes.iterdir():
+            mesh.unlink()
+        (self.meshes / "ball.obj").write_text(solids.obj_text(solids.ellipsoid((1.0, 0.8, 0.6), rows=24)), encoding="ascii")
+        (self.meshes / "open.obj").write_text(HOLED_BOX, encoding="ascii")
+        self.write_suite({"ours": [f"command: {OURS}"]}, head="reference: scan\nmeasures: [evaluate]")
+        self.bench()
+        against_scan = self.results()["ours", "ball"]["evaluation"]
+        self.assertEqual(against_scan["reference"]["kind"], "points")
+        self.assertLess(against_scan["hd"], 0.2)
+        self.out = self.folder / "damaged"
+        self.write_suite({"ours": [f"command: {OURS}"], "copy": ["command: cp {input} {output}", "output: obj"]},
+                         head="damage: {seeds: [3]}\nreference: truth\nmeasures: [evaluate]\n"
+                              "evaluate: [--volume-points, '10000']")
+        self.bench()
+        results = self.results()
+        self.assertEqual(results["ours", "ball-seed3"]["status"], "ok")
+        self.assertGreater(results["ours", "ball-seed3"]["evaluation"]["volume_iou"]["value"], 0.5)
+        self.assertGreater(results["copy", "ball-seed3"]["check"]["boundary_edges"], 0)
+        # A mesh that cannot be damaged stays in the table.
+        self.assertEqual(results["ours", "open-seed3"]["status"], "unreadable")
 
     def test_a_changed_parameter_runs_again_and_nothing_else(self):
         self.write_suite({"gated": self.gated(), "other": ["command: cp {input} {output}", "output: obj"]})

@@ -52,7 +52,7 @@ def row_of(result):
                 "f1_0.01": f1_at(evaluation, 0.01), "f1_0.002": f1_at(evaluation, 0.002),
                 "volume_relative": volume / unit ** 3 if volume is not None and unit else None,
                 "iou": (evaluation.get("volume_iou") or {}).get("value")})
-    images = evaluation.get("images") or {}
+    images = (evaluation.get("images") or {}).get("mean") or {}
     row.update({f"image_{key}": value for key, value in images.items() if isinstance(value, (int, float))})
     row["measured"] = bool(check)
     row["measure_error"] = result.get("measure_error", "")

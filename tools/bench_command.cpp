@@ -48,7 +48,7 @@ fs::path find_workflow(const std::string& named) {
     if (fs::is_regular_file(fs::path(named) / "Snakefile")) return fs::absolute(named);
     throw UsageError(named + ": holds no Snakefile");
   }
-  const fs::path installed = own_folder().parent_path() / "share" / "cellocut" / "bench";
+  fs::path installed = own_folder().parent_path() / "share" / "cellocut" / "bench";
   if (fs::is_regular_file(installed / "Snakefile")) return installed;
   for (const fs::path& start : {own_folder(), fs::current_path()}) {
     for (fs::path folder = start; folder != folder.root_path(); folder = folder.parent_path()) {
@@ -70,7 +70,7 @@ fs::path build_folder(const fs::path& workflow) {
 // A suite's file by its path, or by its name among those of the workflow.
 fs::path find_suite(const std::string& name, const fs::path& workflow) {
   if (fs::is_regular_file(name)) return fs::absolute(name);
-  const fs::path ours = workflow / "suites" / (name + ".yaml");
+  fs::path ours = workflow / "suites" / (name + ".yaml");
   if (fs::is_regular_file(ours)) return ours;
   std::string names;
   for (const auto& entry : fs::directory_iterator(workflow / "suites")) {

@@ -197,6 +197,8 @@ class Tables:
         sign = 1 if key == "iou" else -1
         lines = []
         for mesh in self.suite.meshes:
+            if self.rows[first, mesh]["status"] == "not run":
+                continue
             ours = self.rows[first, mesh].get(key)
             for other in others:
                 theirs = self.rows[other, mesh].get(key)

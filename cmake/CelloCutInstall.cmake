@@ -10,6 +10,7 @@ if(NOT CELLOCUT_SOLVERS_ONLY)
     cellocut/pipeline.h cellocut/base/atomic_file.h cellocut/base/predicates.h
     cellocut/energy/certificate.h cellocut/measure/evaluation.h cellocut/mesh/mesh_file.h
     cellocut/validity/surface_report.h
+    cellocut/image/image_evaluation.h cellocut/image/map_pixels.h cellocut/image/png_file.h
     backends/backends.h)
   if(CELLOCUT_WITH_VIZ)
     list(APPEND _cellocut_entry_headers viz/vtp_file.h viz/vtu_file.h viz/section.h)
@@ -47,9 +48,12 @@ _cellocut_install_headers(${_cellocut_entry_headers})
 set(CELLOCUT_COMPONENTS cut solvers)
 set(CELLOCUT_DEPENDENCIES Threads)
 if(NOT CELLOCUT_SOLVERS_ONLY)
-  list(APPEND CELLOCUT_COMPONENTS core backends)
+  list(APPEND CELLOCUT_COMPONENTS core image backends)
   list(APPEND CELLOCUT_DEPENDENCIES fmt nlohmann_json CGAL Eigen3 OpenVDB meshoptimizer embree Ceres
-    OpenMesh)
+    OpenMesh PNG)
+  if(CELLOCUT_WITH_DNN)
+    list(APPEND CELLOCUT_DEPENDENCIES OpenCVDnn)
+  endif()
   if(CELLOCUT_WITH_VIZ)
     list(APPEND CELLOCUT_COMPONENTS viz)
     list(APPEND CELLOCUT_DEPENDENCIES Cairo)

@@ -24,5 +24,9 @@ Command add_section(CLI::App& program);
 Command add_solve(CLI::App& program);
 Command add_compare(CLI::App& program);
 Command add_evaluate(CLI::App& program);
+Command add_bench(CLI::App& program);
+Command add_scan(CLI::App& program);
+Command add_damage(CLI::App& program);
+Command add_render(CLI::App& program);
 
 }  // namespace cellocut::tools

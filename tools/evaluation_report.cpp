@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cellocut_version.h"
+#include "tools/image_report.h"
 #include "tools/report_json.h"
 
 namespace cellocut::tools {
@@ -15,35 +16,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 // ---- tables -------------------------------------------------------------------------------------
-
-// Columns as wide as their widest entry: the first to the left, the others to the right.
-class Table {
- public:
-  explicit Table(std::vector<std::string> heads) : rows_{std::move(heads)} {}
-  void add(std::vector<std::string> row) { rows_.push_back(std::move(row)); }
-
-  [[nodiscard]] std::string text() const {
-    std::vector<std::size_t> widths(rows_[0].size(), 0);
-    for (const auto& row : rows_) {
-      for (std::size_t k = 0; k < row.size(); ++k) widths[k] = std::max(widths[k], row[k].size());
-    }
-    std::string text;
-    for (const auto& row : rows_) {
-      std::string line = fmt::format("{:<{}}", row[0], widths[0]);
-      for (std::size_t k = 1; k < row.size(); ++k)
-        line += fmt::format("  {:>{}}", row[k], widths[k]);
-      text += line + "\n";
-    }
-    return text;
-  }
-
- private:
-  std::vector<std::vector<std::string>> rows_;
-};
-
-std::string figure(const std::optional<double>& value) {
-  return value ? fmt::format("{:.4g}", *value) : "-";
-}
 
 std::string agreement_table(const EvaluationReport& report, const char* title,
                             Agreement Evaluation::*kind) {
@@ -78,6 +50,27 @@ std::string distance_table(const EvaluationReport& report, const char* title,
     table.add(std::move(row));
   }
   return table.text();
+}
+
+std::string volume_table(const EvaluationReport& report) {
+  Table table({"volumes", "IoU", "+-", "mesh only", "reference only", "enclosed again"});
+  std::string notes;
+  for (const EvaluatedMesh& mesh : report.meshes) {
+    if (!mesh.volume) {
+      table.add({mesh.path, "-", "-", "-", "-", "-"});
+      notes += fmt::format("{}: no volume IoU: {}\n", mesh.path, mesh.volume_undefined);
+      continue;
+    }
+    const VolumeOverlap& found = *mesh.volume;
+    const auto volume = [&found](std::int64_t count) {
+      return fmt::format("{:.4g}", found.box_volume * (static_cast<double>(count) /
+                                                       static_cast<double>(found.points)));
+    };
+    table.add({mesh.path, figure(found.iou()), figure(found.standard_error()),
+               volume(found.in_mesh - found.in_both), volume(found.in_reference - found.in_both),
+               volume(found.enclosed_again_by_mesh)});
+  }
+  return table.text() + notes;
 }
 
 std::string shape_table(const EvaluationReport& report) {
@@ -151,6 +144,23 @@ Json f1_json(const Evaluation& found, const std::vector<double>& thresholds) {
   return list;
 }
 
+// What is told of volumes: null without a value, and then why.
+Json volume_json(const EvaluatedMesh& mesh) {
+  if (!mesh.volume) return {{"value", nullptr}, {"undefined", mesh.volume_undefined}};
+  const VolumeOverlap& found = *mesh.volume;
+  return {{"value", or_null(found.iou())},
+          {"undefined", found.iou() ? Json(nullptr) : Json("no point is in either solid")},
+          {"standard_error", or_null(found.standard_error())},
+          {"points", found.points},
+          {"in_mesh", found.in_mesh},
+          {"in_reference", found.in_reference},
+          {"in_both", found.in_both},
+          {"in_either", found.in_either},
+          {"enclosed_again_by_mesh", found.enclosed_again_by_mesh},
+          {"enclosed_again_by_reference", found.enclosed_again_by_reference},
+          {"box_volume", found.box_volume}};
+}
+
 Json mesh_json(const EvaluatedMesh& mesh, const EvaluationReport& report) {
   const Agreement& sampled = mesh.evaluation.sampled;
   const Agreement& p2s = mesh.evaluation.to_surface;
@@ -174,6 +184,8 @@ Json mesh_json(const EvaluatedMesh& mesh, const EvaluationReport& report) {
               {"from_reference", distances_json(sampled.from_reference, unit)},
               {"to_reference_p2s", distances_json(p2s.to_reference, unit)},
               {"from_reference_p2s", distances_json(p2s.from_reference, unit)}}}};
+  if (report.images) json["images"] = images_json(mesh.images);
+  if (report.volume_points > 0) json["volume_iou"] = volume_json(mesh);
   if (report.counts) json["output"] = output_json(mesh.surface, mesh.path);
   return json;
 }
@@ -195,6 +207,24 @@ Json reference_json(const EvaluatedReference& reference) {
 
 }  // namespace
 
+std::string Table::text() const {
+  std::vector<std::size_t> widths(rows_[0].size(), 0);
+  for (const auto& row : rows_) {
+    for (std::size_t k = 0; k < row.size(); ++k) widths[k] = std::max(widths[k], row[k].size());
+  }
+  std::string text;
+  for (const auto& row : rows_) {
+    std::string line = fmt::format("{:<{}}", row[0], widths[0]);
+    for (std::size_t k = 1; k < row.size(); ++k) line += fmt::format("  {:>{}}", row[k], widths[k]);
+    text += line + "\n";
+  }
+  return text;
+}
+
+std::string figure(const std::optional<double>& value) {
+  return value ? fmt::format("{:.4g}", *value) : "-";
+}
+
 std::string evaluation_tables(const EvaluationReport& report) {
   std::string text = reference_line(report.reference);
   text += fmt::format("{} samples, seed {}; lengths relative to that edge, * in input units\n",
@@ -212,6 +242,8 @@ std::string evaluation_tables(const EvaluationReport& report) {
   }
   add(distance_table(report, "from reference (p2s)", &Agreement::from_reference,
                      &Evaluation::to_surface));
+  if (report.volume_points > 0) add(volume_table(report));
+  if (report.images) add(image_table(report));
   text += "\ncounts by index / after points of equal coordinates are merged\n";
   text += shape_table(report);
   if (report.counts) add(count_table(report));
@@ -225,7 +257,9 @@ nlohmann::ordered_json evaluation_json(const EvaluationReport& report) {
           {"parameters",
            {{"samples", report.options.samples},
             {"seed", report.options.seed},
-            {"thresholds", report.options.thresholds}}},
+            {"thresholds", report.options.thresholds},
+            {"volume_points", report.volume_points},
+            {"images", image_work_json(report.images.get())}}},
           {"reference", reference_json(report.reference)},
           {"meshes", meshes}};
 }

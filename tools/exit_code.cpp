@@ -11,40 +11,31 @@ namespace cellocut::tools {
 
 void print_error(const std::string& what) { fmt::print(stderr, "cellocut: {}\n", what); }
 
-int report_error(const std::exception& error, const std::string& input) {
-  const auto say = [](const std::string& file, const char* what) {
-    print_error(file.empty() ? what : file + ": " + what);
+ErrorLine describe_error(const std::exception& error, const std::string& input) {
+  const auto line = [](ExitCode code, const std::string& file, const char* what) {
+    return ErrorLine{code, file.empty() ? what : file + ": " + what};
   };
   if (const auto* bad_input = dynamic_cast<const InputError*>(&error)) {
-    say(bad_input->file().empty() ? input : bad_input->file(), error.what());
-    return kBadInput;
+    return line(kBadInput, bad_input->file().empty() ? input : bad_input->file(), error.what());
   }
   if (const auto* output = dynamic_cast<const OutputError*>(&error)) {
-    say(output->file(), error.what());
-    return kLimit;
+    return line(kLimit, output->file(), error.what());
   }
-  if (dynamic_cast<const UsageError*>(&error) != nullptr) {
-    say({}, error.what());
-    return kUsage;
-  }
-  if (dynamic_cast<const GuaranteeError*>(&error) != nullptr) {
-    say(input, error.what());
-    return kNoGuarantee;
-  }
-  if (dynamic_cast<const LimitError*>(&error) != nullptr) {
-    say(input, error.what());
-    return kLimit;
-  }
+  if (dynamic_cast<const UsageError*>(&error) != nullptr) return line(kUsage, {}, error.what());
+  if (dynamic_cast<const LimitError*>(&error) != nullptr) return line(kLimit, input, error.what());
   if (dynamic_cast<const Cancelled*>(&error) != nullptr) {
-    say(input, error.what());
-    return kInterrupted;
+    return line(kInterrupted, input, error.what());
   }
   if (dynamic_cast<const std::bad_alloc*>(&error) != nullptr) {
-    say(input, "out of memory; try a lower --resolution");
-    return kLimit;
+    return line(kLimit, input, "out of memory; try a lower --resolution");
   }
-  say(input, error.what());
-  return kNoGuarantee;
+  return line(kNoGuarantee, input, error.what());
+}
+
+int report_error(const std::exception& error, const std::string& input) {
+  const ErrorLine line = describe_error(error, input);
+  print_error(line.text);
+  return line.code;
 }
 
 }  // namespace cellocut::tools

@@ -16,6 +16,14 @@ enum ExitCode : int {
   kInterrupted = 130
 };
 
+// What is said of an exception, without the program's name, and its exit code. `input` names the
+// file for errors that do not know theirs.
+struct ErrorLine {
+  ExitCode code;
+  std::string text;
+};
+ErrorLine describe_error(const std::exception& error, const std::string& input);
+
 // Prints `cellocut: [FILE: ]what is wrong` to standard error and says which code goes with the
 // exception. `input` names the file for errors that do not know theirs.
 int report_error(const std::exception& error, const std::string& input);

@@ -16,6 +16,7 @@
 #include "tools/report_json.h"
 #include "tools/session.h"
 #include "tools/solver_arguments.h"
+#include "tools/stage_surfaces.h"
 #ifdef CELLOCUT_WITH_VIZ
 #include "cellocut_version.h"
 #include "tools/labelled_cells.h"
@@ -41,6 +42,7 @@ struct RemeshArguments {
   bool provenance = false;  // in the output file
   std::string keep_invalid;
   std::string problem;
+  std::string stage_surfaces;
   PipelineArguments pipeline;
 
   [[nodiscard]] RemeshOptions& options() { return pipeline.options; }
@@ -93,6 +95,9 @@ void add_arguments(CLI::App& app, RemeshArguments& a) {
   app.add_option("--keep-invalid", a.keep_invalid,
                  "Where a surface goes that fails its check (it never replaces the output)");
   app.add_option("--problem", a.problem, "The cut problem: .max (DIMACS) or .bbk");
+  app.add_option("--stage-surfaces", a.stage_surfaces,
+                 "Folder for the surfaces before the cut: thickened.ply, simplified.ply, "
+                 "tetrahedralized.ply");
   app.add_flag("--provenance", a.provenance,
                "In a PLY output, for each vertex: nearest_face of the input, distance to it (input "
                "units), supported (1) or completed (0)");
@@ -290,6 +295,7 @@ int run_remesh(RemeshArguments& a) {
   if (!a.problem.empty() && !result.graph.decided.empty()) {
     write_problem(result.graph.problem, a.problem, *problem_format_of_path(a.problem));
   }
+  if (!a.stage_surfaces.empty()) write_stage_surfaces(result, a.stage_surfaces);
   if (code == kDone) write_surface(result, a);
   if (code != kDone && !a.keep_invalid.empty() && !result.surface.empty()) {
     write_mesh(result.surface, a.keep_invalid,

@@ -1,5 +1,6 @@
 """`cellocut evaluate`: known distances, references of points, what it refuses."""
 import json
+import os
 import struct
 
 from program import ProgramCase, join, box, obj_text, sphere
@@ -120,6 +121,71 @@ class Evaluate(ProgramCase):
         self.assertEqual(run.stdout, b"")
         self.assertEqual(json.loads(self.get("r.json"))["meshes"][0]["path"], "-")
 
+    def test_volume_of_shifted_cubes(self):
+        self.put("cube.obj", obj_text(box((0.0, 0.0, 0.0), (1.0, 1.0, 1.0))))
+        self.put("shifted.obj", obj_text(box((0.5, 0.0, 0.0), (1.5, 1.0, 1.0))))
+        report = self.report("shifted.obj", "cube.obj", "low.obj", "--reference", "cube.obj")
+        self.assertEqual(report["parameters"]["volume_points"], 1000000)
+        shifted, same, sheet_ = (mesh["volume_iou"] for mesh in report["meshes"])
+        self.assertAlmostEqual(shifted["value"], 1 / 3, delta=5 * shifted["standard_error"])
+        self.assertLess(shifted["standard_error"], 0.001)
+        self.assertEqual((shifted["points"], shifted["box_volume"]), (1000000, 1.5))
+        self.assertEqual((same["value"], same["undefined"]), (1, None))
+        self.assertIsNone(sheet_["value"])
+        self.assertRegex(sheet_["undefined"], "the mesh is not closed .4 edges")
+        text = self.succeed("evaluate", "low.obj", "shifted.obj", "--reference", "cube.obj", "--samples", "500",
+                            "--volume-points", "9000").stdout.decode()
+        self.assertRegex(text, r"\nvolumes +IoU")
+        self.assertIn("\nlow.obj: no volume IoU: the mesh is not closed", text)
+        none, = self.report("cube.obj", "--reference", "cube.obj", "--volume-points", "0")["meshes"]
+        self.assertNotIn("volume_iou", none)
+        open_, = self.report("cube.obj", "--reference", "low.obj")["meshes"]
+        self.assertRegex(open_["volume_iou"]["undefined"], "the reference is not closed")
+
+    def test_pairs(self):
+        os.mkdir(self.path("deep"))
+        self.put("deep/cube, one.obj", obj_text(box((0.0, 0.0, 0.0), (1.0, 1.0, 1.0))))
+        self.put("deep/bad.obj", "v 0 0 zero\n")
+        self.put("deep/list.csv", "# two that cannot be read\r\nmesh,reference\r\n../high.obj,../low.obj\r\n"
+                 "missing.obj, ../low.obj\n\n\"cube, one.obj\",../low.obj\nbad.obj,../low.obj\n"
+                 "../low.obj,bad.obj\n../low.obj,../low.obj\n")
+        run = self.run_program("evaluate", "--pairs", "deep/list.csv", "--samples", "500", "--json", "r.json")
+        self.assertEqual(run.returncode, 3)
+        errors = run.stderr.decode().splitlines()
+        self.assertEqual(len(errors), 3)
+        self.assertRegex(errors[0], r"\Acellocut: deep/list\.csv: line 4: deep/missing\.obj: cannot open")
+        rows = run.stdout.decode().splitlines()
+        self.assertEqual(len(rows), 8)
+        self.assertEqual(rows[-1], "6 pairs, 3 done, 3 failed")
+        self.assertRegex(rows[2], r"\Amissing\.obj +\.\./low\.obj +failed\Z")
+        report = json.loads(self.get("r.json"))
+        self.assertEqual(report["counts"], {"pairs": 6, "done": 3, "failed": 3})
+        self.assertEqual([pair["line"] for pair in report["pairs"]], [3, 4, 6, 7, 8, 9])
+        self.assertEqual([pair["exit_code"] for pair in report["pairs"]], [0, 3, 0, 3, 3, 0])
+        self.assertEqual(report["pairs"][2]["mesh"], "cube, one.obj")
+        for pair in report["pairs"]:
+            self.assertEqual(pair["error"] is None, pair["evaluation"] is not None)
+        # The same object as the call for that pair alone.
+        for number, mesh in ((0, "deep/../high.obj"), (2, "deep/cube, one.obj"), (5, "deep/../low.obj")):
+            alone = self.succeed("evaluate", mesh, "--reference", "deep/../low.obj", "--samples", "500",
+                                 "--json", "-")
+            self.assertEqual(json.loads(alone.stdout), report["pairs"][number]["evaluation"])
+        self.put("good.csv", "high.obj,low.obj\n")
+        run = self.succeed("evaluate", "--pairs", "good.csv", "--samples", "500", "--json", "-")
+        self.assertEqual(json.loads(run.stdout)["counts"]["failed"], 0)
+
+    def test_lists_that_are_wrong(self):
+        for content, what in (("# none\n", "no pairs"), ("a.obj\n", "line 1: a row is `mesh,reference`"),
+                              ("mesh,reference\na,b,c\n", "line 2: a row is"), ("a.obj,\n", "line 1: a name is"),
+                              ('"a.obj,b.obj\n', "line 1: a quote"), ('"a"b,c\n', "line 1: something follows"),
+                              ("-,low.obj\n", "line 1: '-' is no file"), ("", "the file is empty")):
+            with self.subTest(content):
+                self.put("list.csv", content)
+                self.refuse(3, r"list\.csv: " + what, "--pairs", "list.csv")
+        self.refuse(3, r"gone\.csv: cannot open", "--pairs", "gone.csv")
+        self.refuse(2, ".*excludes", "low.obj", "--pairs", "list.csv")
+        self.refuse(2, ".*excludes", "--pairs", "list.csv", "--reference", "low.obj")
+
     def refuse(self, code, pattern, *arguments):
         few = () if "--samples" in arguments else ("--samples", "100")
         self.fail_with(code, r"\Acellocut: " + pattern, "evaluate", *arguments, *few, "--json",
@@ -149,6 +215,7 @@ class Evaluate(ProgramCase):
         good = ("high.obj", "--reference", "low.obj")
         self.refuse(2, "--reference is required", "high.obj")
         self.refuse(2, "meshes is required", "--reference", "low.obj")
+        self.refuse(2, "volume points must be 0 to", *good, "--volume-points", "2000000000")
         self.refuse(2, "samples must be 1 to", *good, "--samples", "0")
         self.refuse(2, ".*--samples", *good, "--samples", "many")
         self.refuse(2, "a threshold must be a positive number", *good, "--thresholds", "0.1,0")

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cellocut/base/predicates.h"
+#include "cellocut/base/line_coverage.h"
 
 namespace cellocut {
 
@@ -17,25 +17,6 @@ struct Crossing {
   double at;
   auto operator<=>(const Crossing&) const = default;
 };
-
-// Projection along the axis.
-struct Flat {
-  double y;
-  double z;
-};
-
-// Whether the ray from (y, z) towards +z crosses the edge (a, b) in projection. The half-open rule
-// in y counts an edge end once; an edge is judged the same from every face at it, since the answer
-// is exact and depends only on the two end points as a set. So over a closed surface the answers
-// cancel to an even number, whatever is degenerate.
-bool ray_crosses(const Flat& a, const Flat& b, double y, double z) {
-  const bool a_right = a.y > y;
-  const bool b_right = b.y > y;
-  if (a_right == b_right) return false;
-  const Flat& left = a_right ? b : a;
-  const Flat& right = a_right ? a : b;
-  return turn(left.y, left.z, right.y, right.z, y, z) < 0;
-}
 
 }  // namespace
 
@@ -61,10 +42,8 @@ LineCrossings::LineCrossings(const TriangleSoup& mesh, const Frame& frame, int a
     const int k1 = std::min(extent_ - 1, static_cast<int>(std::max({a[2], b[2], c[2]})));
     for (int j = j0; j <= j1; ++j) {
       for (int k = k0; k <= k1; ++k) {
-        const bool covered = ray_crosses({a[1], a[2]}, {b[1], b[2]}, j, k) ^
-                             ray_crosses({b[1], b[2]}, {c[1], c[2]}, j, k) ^
-                             ray_crosses({c[1], c[2]}, {a[1], a[2]}, j, k);
-        if (!covered) continue;
+        const Flat line{static_cast<double>(j), static_cast<double>(k)};
+        if (!line_passes({a[1], a[2]}, {b[1], b[2]}, {c[1], c[2]}, line)) continue;
         const double rise = normal[1] * (j - a[1]) + normal[2] * (k - a[2]);
         const double x = normal[0] != 0 ? a[0] - rise / normal[0] : x_low;
         visit(line_number(j, k), std::clamp(x, x_low, x_high));

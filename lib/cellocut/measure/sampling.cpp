@@ -6,33 +6,11 @@
 #include <cmath>
 
 #include "cellocut/base/errors.h"
+#include "cellocut/base/random_stream.h"
 
 namespace cellocut {
 
 namespace {
-
-// The output function of SplitMix64.
-std::uint64_t mix(std::uint64_t z) {
-  z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9U;
-  z = (z ^ (z >> 27)) * 0x94D049BB133111EBU;
-  return z ^ (z >> 31);
-}
-
-// The stream of a seed, open at any place. The seed is mixed first: streams whose starts differ by
-// a few steps are shifts of one another.
-class RandomStream {
- public:
-  explicit RandomStream(std::uint64_t seed) : start_(mix(seed + kStep)) {}
-  // Number n, uniform in [0, 1): a multiple of 2^-53. Not std::uniform_real_distribution, whose
-  // result depends on the library.
-  [[nodiscard]] double operator()(std::uint64_t n) const {
-    return static_cast<double>(mix(start_ + (n + 1) * kStep) >> 11) * 0x1p-53;
-  }
-
- private:
-  static constexpr std::uint64_t kStep = 0x9E3779B97F4A7C15U;
-  std::uint64_t start_;
-};
 
 Point3 face_cross(const TriangleSoup& soup, const Triangle& t) {
   const Point3& a = soup.points[t[0]];

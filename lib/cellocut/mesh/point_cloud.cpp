@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "cellocut/base/byte_order.h"
 #include "cellocut/base/read_file.h"
 #include "cellocut/mesh/mesh_readers.h"
 #include "cellocut/mesh/ply_body.h"
@@ -57,6 +58,27 @@ PointCloud parse_cloud(std::string_view bytes, const PlyHeader& header) {
 }
 
 }  // namespace
+
+std::string encode_point_cloud(const PointCloud& cloud) {
+  std::string bytes = "ply\nformat binary_little_endian 1.0\nelement vertex " +
+                      std::to_string(cloud.points.size()) + "\n";
+  for (const char* name : {"x", "y", "z"}) {
+    bytes.append("property double ").append(name).append("\n");
+  }
+  if (!cloud.normals.empty()) {
+    for (const char* name : {"nx", "ny", "nz"}) {
+      bytes.append("property float ").append(name).append("\n");
+    }
+  }
+  bytes += "end_header\n";
+  bytes.reserve(bytes.size() + 36 * cloud.points.size());
+  for (std::size_t i = 0; i < cloud.points.size(); ++i) {
+    for (const double x : cloud.points[i]) append_little_endian(bytes, x);
+    if (cloud.normals.empty()) continue;
+    for (const double x : cloud.normals[i]) append_little_endian(bytes, static_cast<float>(x));
+  }
+  return bytes;
+}
 
 PointCloud read_point_cloud(const std::string& path) {
   const std::string bytes = read_file(path);

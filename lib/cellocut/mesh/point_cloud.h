@@ -23,6 +23,10 @@ struct PointCloud {
 // points, a coordinate or a normal that is not finite.
 PointCloud read_point_cloud(const std::string& path);
 
+// The bytes of a binary PLY file: doubles x y z, and floats nx ny nz where there are normals.
+// Precondition: as many normals as points, or none. O(n).
+std::string encode_point_cloud(const PointCloud& cloud);
+
 // A mesh as read_mesh() reads it, or, where a PLY file has no faces, its points.
 // Errors: as read_mesh() and read_point_cloud().
 std::variant<TriangleSoup, PointCloud> read_mesh_or_cloud(const std::string& path,

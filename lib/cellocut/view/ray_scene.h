@@ -1,0 +1,48 @@
+// The first face that a ray meets.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "cellocut/view/camera.h"
+
+namespace cellocut {
+
+// Embree's hierarchy finds the candidates in single precision, without gaps between faces that
+// share an edge; which of them is first is decided in doubles, so that the order in which the
+// hierarchy is built and searched decides nothing: the same bits for any number of threads.
+//
+// Faces without area are not there.
+class RayScene {
+ public:
+  struct Hit {
+    std::uint32_t face = 0;
+    double distance = 0;  // along the ray, in lengths of its direction
+    Point3 normal{};      // of unit length, in the mesh's axes, by the order of the face's corners
+    bool front = true;    // whether the ray comes from the side that the normal points to
+  };
+
+  // A mesh in a frame. Preconditions: finite coordinates, fewer than 2^32 points and faces.
+  // Errors: InputError where a coordinate is too far from the frame for single precision;
+  // LimitError where memory is short. Parallel; O(n log n).
+  RayScene(const TriangleSoup& mesh, const ViewFrame& frame);
+  ~RayScene();
+  RayScene(RayScene&&) noexcept;
+  RayScene& operator=(RayScene&&) noexcept;
+
+  // The nearest face in front of the origin. Of faces at the same distance (to 1e-9) one whose
+  // front is seen, and then the lowest. From any number of threads at once. O(log n) for surfaces.
+  [[nodiscard]] std::optional<Hit> first_hit(const Ray& ray) const;
+  // Whether any face lies between the origin and `distance` lengths of the direction.
+  [[nodiscard]] bool is_blocked(const Ray& ray, double distance) const;
+  // All of the mesh lies within this of the frame's centre.
+  [[nodiscard]] double radius() const;
+
+ private:
+  struct Scene;
+  std::unique_ptr<Scene> scene_;
+};
+
+}  // namespace cellocut

@@ -129,7 +129,7 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(Case{"sphere", test::icosphere(4)}, Case{"torus", test::torus(1, 0.4, 96, 40)},
                       Case{"slab", testing::gridded_box({0, 0, 0}, {3, 1, 0.3}, 24)},
                       Case{"two_parts", two_parts()}),
-    [](const auto& info) { return std::string(info.param.name); });
+    [](const auto& of) { return std::string(of.param.name); });
 
 TEST(Damage, KindsAreShapedAsTheyAreNamed) {
   const TriangleSoup sphere = test::icosphere(6);  // 81,920 faces

@@ -19,6 +19,7 @@ namespace {
 constexpr int kTriesPerHole = 300;
 constexpr double kLeastReached = 0.4;  // of the aimed area: below, another place is tried
 constexpr double kMostReached = 2.5;
+constexpr double kLeastLength = 0.6;  // of the aimed length, for bands
 constexpr double kMostOfAComponent = 0.3;  // of its area
 
 void require_watertight(const TriangleSoup& model) {
@@ -60,6 +61,7 @@ class Dice {
 struct Plan {
   std::uint32_t seed_face = 0;
   double area = 0;
+  double length = 0;                 // of a band; 0 for a patch, and for what cannot be a band
   std::vector<std::uint8_t> wanted;  // by face
 };
 
@@ -91,6 +93,7 @@ class Damager {
   // Tries one place.
   std::optional<Hole> try_hole(HoleKind kind) {
     const Plan plan = plan_hole(kind);
+    if (plan.wanted.empty()) return std::nullopt;
     const Point3 centre = centres_[plan.seed_face];
     std::vector<std::uint32_t> disc = grower_.grow(
         plan.seed_face, plan.area, [&](std::uint32_t f) { return plan.wanted[f] != 0; },
@@ -99,8 +102,10 @@ class Damager {
     for (const std::uint32_t f : disc) area += areas_[f];
     if (area < kLeastReached * plan.area || area > kMostReached * plan.area) return std::nullopt;
     if (area > kMostOfAComponent * component_area_[component_[plan.seed_face]]) return std::nullopt;
-    grower_.keep_out(disc);
-    return describe(kind, std::move(disc), area);
+    Hole hole = describe(kind, std::move(disc), area);
+    if (hole.length < kLeastLength * plan.length) return std::nullopt;
+    grower_.keep_out(hole.faces);
+    return hole;
   }
 
  private:
@@ -152,31 +157,38 @@ class Damager {
       area += areas_[f];
       if (area >= 0.25 * total_) break;
     }
-    Plan plan{.seed_face = 0, .area = total_ * dice_.between(0.008, 0.025), .wanted = {}};
+    Plan plan{
+        .seed_face = 0, .area = total_ * dice_.between(0.008, 0.025), .length = 0, .wanted = {}};
     plan.wanted.resize(areas_.size());
     for (const auto& [slope, f] : slopes) plan.wanted[f] = slope <= worst ? 1 : 0;
     plan.seed_face = random_face(&plan.wanted);
     return plan;
   }
 
-  // The band around a seed: at most half a length from it, and half a width from the plane through
-  // it that runs along the surface. `across`: the normal of that plane, made tangent; random where
-  // there is none. Faces that the plane cuts belong to it however wide they are, so that the band
-  // holds together.
+  // The band around a seed, on its side of the model: at most half a length from it, and half a
+  // width, along the surface, from a plane through it. `across`: the normal of that plane; at right
+  // angles to the seed's normal and else random where there is none. Faces that the plane cuts
+  // belong to the band however wide they are, so that it holds together. Nothing is wanted where
+  // the plane runs along the surface.
   Plan plan_band(double length, double width, std::optional<Point3> across) {
-    Plan plan{.seed_face = random_face(nullptr), .area = length * width, .wanted = {}};
+    Plan plan{.seed_face = random_face(nullptr),
+              .area = length * width,
+              .length = length,
+              .wanted = {}};
     const Point3 centre = centres_[plan.seed_face];
     const Point3 normal = normals_[plan.seed_face];
-    const Point3 rough = across ? *across : dice_.direction();
-    Point3 side = rough;
-    if (!across) {
-      side = rough - dot(rough, normal) * normal;
-      if (!(norm(side) > 1e-6)) return plan_band(length, width, std::nullopt);
-      side = (1 / norm(side)) * side;
-    }
+    Point3 side = across ? *across : dice_.direction();
+    const Point3 tangent = side - dot(side, normal) * normal;
+    const double slope = norm(tangent);
+    constexpr double kLeastSlope = 0.5;
+    if (!(slope >= kLeastSlope)) return plan;
+    // On the surface the same width is less across planes that meet it aslant.
+    const double half_width = across ? slope * width / 2 : width / 2;
+    if (!across) side = (1 / slope) * tangent;
     plan.wanted.resize(areas_.size());
     for (std::size_t f = 0; f < areas_.size(); ++f) {
-      if (norm(centres_[f] - centre) > length / 2 || dot(normals_[f], normal) < -0.5) continue;
+      constexpr double kSameSide = 0.2;  // cosine
+      if (norm(centres_[f] - centre) > length / 2 || dot(normals_[f], normal) < kSameSide) continue;
       double low = std::numeric_limits<double>::infinity();
       double high = -low;
       for (const std::uint32_t corner : model_.triangles[f]) {
@@ -184,7 +196,7 @@ class Damager {
         low = std::min(low, height);
         high = std::max(high, height);
       }
-      const bool within = std::fabs(dot(centres_[f] - centre, side)) <= width / 2;
+      const bool within = std::fabs(dot(centres_[f] - centre, side)) <= half_width;
       plan.wanted[f] = within || (low <= 0 && high >= 0) ? 1 : 0;
     }
     return plan;

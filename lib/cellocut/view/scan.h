@@ -36,8 +36,8 @@ struct Scan {
 // normal, turned to the viewer, are noted: what lies behind is never seen. A sheet without thickness
 // is seen from both sides, so gets points with both normals. The mesh's orientation does not matter.
 //
-// Embree intersects without gaps between faces that share an edge (RTC_SCENE_FLAG_ROBUST), so no
-// ray slips into a closed surface; where a mesh has a crack, what lies behind it is visible.
+// There are no gaps between faces that share an edge or a corner (ray_scene.h), so no ray slips
+// into a closed surface; where a mesh has a crack, what lies behind it is visible.
 // Hits at less than about a degree are left out: there the place of the hit on the face is worst,
 // and other viewpoints see it better.
 //

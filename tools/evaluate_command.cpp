@@ -22,6 +22,7 @@ struct EvaluateArguments {
   std::string reference;
   std::string pairs;
   EvaluationWork work;
+  ImageArguments images;
   bool no_counts = false;
 };
 
@@ -32,10 +33,11 @@ int run_evaluate(EvaluateArguments& a) {
   if (a.pairs.empty() && a.reference.empty()) throw UsageError("--reference is required");
   require_writable({a.common.json});
   const ThreadLimit limit(a.common.threads);
+  a.work.images = a.images.load();
   if (!a.pairs.empty()) return evaluate_pairs(a.pairs, a.work, a.common);
   TerminalObserver observer(a.common);
   observer.stage("reference");
-  const Reference reference(a.reference, a.work);
+  const Reference reference(a.reference, a.work, observer);
   EvaluationReport report = reference.report();
   for (const std::string& path : a.meshes) {
     report.meshes.push_back(reference.evaluate(path, a.format, observer));
@@ -86,6 +88,7 @@ Command add_evaluate(CLI::App& program) {
       ->capture_default_str();
   app->add_flag("--no-counts", a.no_counts,
                 "Leave out what `cellocut check` counts, and its test for intersections");
+  a.images.add_to(*app);
   a.common.add_to(*app);
   return {app, [arguments] { return run_evaluate(*arguments); },
           [arguments] { return arguments->meshes.empty() ? "" : arguments->meshes.front(); }};

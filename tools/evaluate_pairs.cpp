@@ -11,6 +11,7 @@
 #include "cellocut/base/atomic_file.h"
 #include "cellocut_version.h"
 #include "tools/exit_code.h"
+#include "tools/image_report.h"
 #include "tools/pair_list.h"
 
 namespace cellocut::tools {
@@ -22,9 +23,13 @@ using Json = nlohmann::ordered_json;
 // Rows that are printed one at a time: the widths are known before.
 class PairTable {
  public:
-  PairTable(const std::vector<FilePair>& pairs, const std::vector<double>& thresholds)
-      : heads_{"CD", "HD", "ANC", "CD p2s", "HD p2s", "ANC p2s", "IoU"} {
-    for (const double t : thresholds) heads_.push_back(fmt::format("F1@{}", t));
+  PairTable(const std::vector<FilePair>& pairs, const EvaluationWork& work)
+      : images_(work.images != nullptr), heads_{"CD",     "HD",      "ANC", "CD p2s",
+                                                "HD p2s", "ANC p2s", "IoU"} {
+    for (const double t : work.options.thresholds) heads_.push_back(fmt::format("F1@{}", t));
+    if (images_) {
+      for (std::string& head : image_heads()) heads_.push_back(std::move(head));
+    }
     for (const FilePair& pair : pairs) {
       mesh_ = std::max(mesh_, pair.mesh.size());
       reference_ = std::max(reference_, pair.reference.size());
@@ -43,6 +48,9 @@ class PairTable {
       row.push_back(figure(value));
     }
     for (const double f1 : sampled.f1) row.push_back(fmt::format("{:.2f}", f1));
+    if (images_) {
+      for (std::string& cell : image_cells(mesh.images)) row.push_back(std::move(cell));
+    }
     print(pair.mesh, pair.reference, row);
   }
 
@@ -57,6 +65,7 @@ class PairTable {
     std::fflush(stdout);
   }
 
+  bool images_;
   std::vector<std::string> heads_;
   std::size_t mesh_ = 4;
   std::size_t reference_ = 9;
@@ -88,11 +97,14 @@ class PairsJson {
     first_ = false;
   }
 
-  void finish(std::size_t done, std::size_t failed) {
+  void finish(std::size_t done, std::size_t failed, const ImageWork* images,
+              const std::optional<Fid>& fid) {
     if (!file_) return;
     file_->write(
-        fmt::format("\n  ],\n  \"counts\": {{\"pairs\": {}, \"done\": {}, \"failed\": {}}}\n}}\n",
+        fmt::format("\n  ],\n  \"counts\": {{\"pairs\": {}, \"done\": {}, \"failed\": {}}}",
                     done + failed, done, failed));
+    if (images != nullptr) file_->write(",\n  \"fid\": " + fid_json(fid).dump());
+    file_->write("\n}\n");
     file_->commit();
   }
 
@@ -109,21 +121,23 @@ int evaluate_pairs(const std::string& list, const EvaluationWork& work,
   TerminalObserver observer(common);
   PairsJson json(common.json);
   const bool prints = !common.quiet && common.json != "-";
-  const PairTable table(pairs, work.options.thresholds);
+  const PairTable table(pairs, work);
   if (prints) table.print_heads();
   std::unique_ptr<Reference> reference;  // of the last pair: lists often go reference by reference
   std::optional<ErrorLine> first_error;
   std::size_t failed = 0;
+  FidPool pool;
   for (const FilePair& pair : pairs) {
     try {
       observer.stage(pair.reference_path);
       if (!reference || reference->path() != pair.reference_path) {
         reference.reset();
-        reference = std::make_unique<Reference>(pair.reference_path, work);
+        reference = std::make_unique<Reference>(pair.reference_path, work, observer);
       }
       EvaluationReport report = reference->report();
       report.meshes.push_back(reference->evaluate(pair.mesh_path, {}, observer));
       observer.clear();
+      if (report.meshes.front().images) pool.add(*report.meshes.front().images);
       json.add(pair, evaluation_json(report), nullptr);
       if (prints) table.print_row(pair, report.meshes.front());
     } catch (const Cancelled&) {
@@ -140,9 +154,11 @@ int evaluate_pairs(const std::string& list, const EvaluationWork& work,
       if (!first_error) first_error = line;
     }
   }
-  json.finish(pairs.size() - failed, failed);
+  const std::optional<Fid> fid = pool.distance();
+  json.finish(pairs.size() - failed, failed, work.images.get(), fid);
   if (prints)
     fmt::print("{} pairs, {} done, {} failed\n", pairs.size(), pairs.size() - failed, failed);
+  if (prints && work.images) fmt::print("{}", image_lines(*work.images, fid));
   return first_error ? first_error->code : kDone;
 }
 

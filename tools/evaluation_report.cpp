@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cellocut_version.h"
+#include "tools/image_report.h"
 #include "tools/report_json.h"
 
 namespace cellocut::tools {
@@ -183,6 +184,7 @@ Json mesh_json(const EvaluatedMesh& mesh, const EvaluationReport& report) {
               {"from_reference", distances_json(sampled.from_reference, unit)},
               {"to_reference_p2s", distances_json(p2s.to_reference, unit)},
               {"from_reference_p2s", distances_json(p2s.from_reference, unit)}}}};
+  if (report.images) json["images"] = images_json(mesh.images);
   if (report.volume_points > 0) json["volume_iou"] = volume_json(mesh);
   if (report.counts) json["output"] = output_json(mesh.surface, mesh.path);
   return json;
@@ -241,6 +243,7 @@ std::string evaluation_tables(const EvaluationReport& report) {
   add(distance_table(report, "from reference (p2s)", &Agreement::from_reference,
                      &Evaluation::to_surface));
   if (report.volume_points > 0) add(volume_table(report));
+  if (report.images) add(image_table(report));
   text += "\ncounts by index / after points of equal coordinates are merged\n";
   text += shape_table(report);
   if (report.counts) add(count_table(report));
@@ -255,7 +258,8 @@ nlohmann::ordered_json evaluation_json(const EvaluationReport& report) {
            {{"samples", report.options.samples},
             {"seed", report.options.seed},
             {"thresholds", report.options.thresholds},
-            {"volume_points", report.volume_points}}},
+            {"volume_points", report.volume_points},
+            {"images", image_work_json(report.images.get())}}},
           {"reference", reference_json(report.reference)},
           {"meshes", meshes}};
 }

@@ -3,15 +3,18 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "cellocut/image/image_evaluation.h"
 #include "cellocut/measure/evaluation.h"
 #include "cellocut/measure/volume_overlap.h"
 #include "cellocut/validity/surface_report.h"
+#include "tools/image_arguments.h"
 
 namespace cellocut::tools {
 
@@ -28,8 +31,9 @@ struct EvaluatedMesh {
   Evaluation evaluation;
   SurfaceReport surface;
   std::int64_t components_by_position = 0;
-  std::optional<VolumeOverlap> volume;  // with the reference
-  std::string volume_undefined;         // why there is none; empty where nobody asked
+  std::optional<VolumeOverlap> volume;     // with the reference
+  std::string volume_undefined;            // why there is none; empty where nobody asked
+  std::optional<ImageAgreement> images{};  // absent for a reference of points
 };
 
 struct EvaluationReport {
@@ -37,6 +41,7 @@ struct EvaluationReport {
   std::size_t volume_points = 0;  // 0: volumes were not compared
   EvaluatedReference reference;
   std::vector<EvaluatedMesh> meshes;
+  std::shared_ptr<const ImageWork> images{};  // null: pictures were not compared
   bool counts = true;  // whether the meshes were tested for intersections, and the counts are told
 };
 

@@ -69,12 +69,18 @@ void EvaluationWork::validate() const {
   }
 }
 
-Reference::Reference(std::string path, const EvaluationWork& work) : work_(work) {
+Reference::Reference(std::string path, const EvaluationWork& work, const Observer& observer)
+    : work_(work) {
   const auto shape = read_reference(path);
   about(path, [&] {
     std::visit([&](const auto& s) { evaluator_.emplace(s, work.options); }, shape);
     if (work.volume_points > 0) {
       if (const auto* soup = std::get_if<TriangleSoup>(&shape)) inside_.emplace(*soup);
+    }
+    if (work.images) {
+      if (const auto* soup = std::get_if<TriangleSoup>(&shape)) {
+        images_.emplace(*soup, work.images->options, work.images->networks, observer);
+      }
     }
   });
   description_ = describe(std::move(path), shape, evaluator_->unit());
@@ -85,6 +91,7 @@ EvaluationReport Reference::report() const {
           .volume_points = work_.volume_points,
           .reference = description_,
           .meshes = {},
+          .images = work_.images,
           .counts = work_.counts};
 }
 
@@ -120,6 +127,7 @@ EvaluatedMesh Reference::evaluate(const std::string& path, const std::string& fo
         mesh, SurfaceCheckOptions{.intersections = work_.counts, .observer = &observer});
     result.components_by_position = components_by_position(mesh);
     compare_volumes(mesh, result, observer);
+    if (images_) result.images = (*images_)(mesh, observer);
     return result;
   });
 }

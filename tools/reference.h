@@ -1,6 +1,7 @@
 // A reference and what meshes are compared with it by.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <variant>
@@ -13,8 +14,9 @@ namespace cellocut::tools {
 
 struct EvaluationWork {
   EvaluationOptions options;
-  std::size_t volume_points = 1'000'000;  // 0: volumes are not compared
-  bool counts = true;                     // test meshes for intersections
+  std::size_t volume_points = 1'000'000;      // 0: volumes are not compared
+  bool counts = true;                         // test meshes for intersections
+  std::shared_ptr<const ImageWork> images{};  // null: pictures are not compared
 
   // Errors: UsageError.
   void validate() const;
@@ -22,8 +24,8 @@ struct EvaluationWork {
 
 class Reference {
  public:
-  // Errors: InputError about the file; UsageError where it is standard input.
-  Reference(std::string path, const EvaluationWork& work);
+  // Errors: InputError about the file; UsageError where it is standard input; Cancelled.
+  Reference(std::string path, const EvaluationWork& work, const Observer& observer);
 
   [[nodiscard]] const std::string& path() const { return description_.path; }
 
@@ -41,7 +43,8 @@ class Reference {
   EvaluationWork work_;
   EvaluatedReference description_;
   std::optional<Evaluator> evaluator_;
-  std::optional<InsideTest> inside_;  // a mesh, where volumes are compared
+  std::optional<ImageEvaluator> images_;  // a mesh, where pictures are compared
+  std::optional<InsideTest> inside_;      // a mesh, where volumes are compared
 };
 
 }  // namespace cellocut::tools

@@ -81,7 +81,13 @@ def mean_colour(size):
                  [], [value("embedding", [1, 3])])
 
 
-NETWORKS = {"two_layers.onnx": two_layers(), "mean_colour.onnx": mean_colour(4)}
+def pixels():
+    """Every number of a picture of 4 x 4 pixels: 48 dimensions."""
+    return model([value("image", [1, 3, 4, 4])], [node("Flatten", ["image"], "numbers", axis=1)], [],
+                 [value("numbers", [1, 48])])
+
+
+NETWORKS = {"two_layers.onnx": two_layers(), "mean_colour.onnx": mean_colour(4), "pixels.onnx": pixels()}
 
 
 def main():

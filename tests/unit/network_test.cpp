@@ -5,6 +5,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "cellocut/base/errors.h"
 #include "cellocut/image/image_evaluation.h"
 #include "support/defective_meshes.h"
@@ -13,7 +15,6 @@
 namespace cellocut {
 namespace {
 
-using ::testing::ElementsAre;
 using ::testing::FloatNear;
 using ::testing::HasSubstr;
 using ::testing::Pointwise;
@@ -22,6 +23,8 @@ using ::testing::ThrowsMessage;
 std::string network(const std::string& name) {
   return std::string(CELLOCUT_TEST_NETWORKS) + "/" + name;
 }
+
+auto near(const std::vector<float>& values) { return Pointwise(FloatNear(1e-5F), values); }
 
 using Pixel = std::array<std::uint8_t, 3>;
 
@@ -45,10 +48,10 @@ TEST(ImageNetwork, TwoLayersByHand) {
   EXPECT_EQ(maps[0].channels, 2);
   EXPECT_EQ(maps[0].height, 2);
   EXPECT_EQ(maps[0].width, 2);
-  EXPECT_THAT(maps[0].values, Pointwise(FloatNear(1e-6), {2, 0, 0, 2, 0.5, 1.5, 0, 0.5}));
+  EXPECT_THAT(maps[0].values, near({2, 0, 0, 2, 0.5, 1.5, 0, 0.5}));
   // The second sees the first at the upper left alone: (2, 2 + 1/2, relu(-1/2)).
   EXPECT_EQ(maps[1].places(), 1U);
-  EXPECT_THAT(maps[1].values, Pointwise(FloatNear(1e-6), {2, 2.5, 0}));
+  EXPECT_THAT(maps[1].values, near({2, 2.5, 0}));
 }
 
 TEST(ImageNetwork, LpipsByHand) {
@@ -86,15 +89,14 @@ TEST(ImageNetwork, SizeMeanDeviationAndOrder) {
   // The mean colour of a picture whose upper half is white, lower half (0, 51, 102).
   const View halves = picture(2, {{255, 255, 255}, {255, 255, 255}, {0, 51, 102}, {0, 51, 102}});
   const ImageNetwork plain_net(network("mean_colour.onnx"), {.size = 4});
-  EXPECT_THAT(plain_net.embedding(halves), Pointwise(FloatNear(1e-6), {0.5, 0.6, 0.7}));
+  EXPECT_THAT(plain_net.embedding(halves), near({0.5, 0.6, 0.7}));
   const ImageNetwork scaled(network("mean_colour.onnx"),
                             {.size = 4, .mean = {0.5, 0.5, 0}, .deviation = {1, 0.1, 2}});
-  EXPECT_THAT(scaled.embedding(halves), Pointwise(FloatNear(1e-5), {0, 1, 0.35}));
+  EXPECT_THAT(scaled.embedding(halves), near({0, 1, 0.35}));
   const ImageNetwork bgr(network("mean_colour.onnx"),
                          {.size = 4, .mean = {0.1, 0, 0}, .bgr = true});
-  EXPECT_THAT(bgr.embedding(halves), Pointwise(FloatNear(1e-6), {0.7, 0.6, 0.4}));
-  EXPECT_THAT(plain_net.embedding(plain(32, {51, 102, 153})),
-              Pointwise(FloatNear(1e-6), {0.2, 0.4, 0.6}));
+  EXPECT_THAT(bgr.embedding(halves), near({0.7, 0.6, 0.4}));
+  EXPECT_THAT(plain_net.embedding(plain(32, {51, 102, 153})), near({0.2, 0.4, 0.6}));
 }
 
 TEST(ImageNetwork, MakesSmallerByAreas) {
@@ -123,18 +125,12 @@ TEST(ImageNetwork, RefusesWhatIsNoNetwork) {
 }
 
 TEST(NetworkInput, RefusesValuesOutOfRange) {
-  EXPECT_THAT([] { NetworkInput{.size = 5000}.validate(); },
-              ThrowsMessage<InputError>(HasSubstr("size")));
-  EXPECT_THAT(
-      [] {
-        NetworkInput{.deviation = {1, 0, 1}}.validate();
-      },
-      ThrowsMessage<InputError>(HasSubstr("std")));
-  EXPECT_THAT(
-      [] {
-        NetworkInput{.mean = {0, NAN, 0}}.validate();
-      },
-      ThrowsMessage<InputError>(HasSubstr("mean")));
+  const NetworkInput large{.size = 5000};
+  EXPECT_THAT([&] { large.validate(); }, ThrowsMessage<InputError>(HasSubstr("size")));
+  const NetworkInput flat{.deviation = {1, 0, 1}};
+  EXPECT_THAT([&] { flat.validate(); }, ThrowsMessage<InputError>(HasSubstr("std")));
+  const NetworkInput wild{.mean = {0, NAN, 0}};
+  EXPECT_THAT([&] { wild.validate(); }, ThrowsMessage<InputError>(HasSubstr("mean")));
 }
 
 TEST(ImageEvaluator, WithNetworks) {

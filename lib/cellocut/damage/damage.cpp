@@ -19,7 +19,7 @@ namespace {
 constexpr int kTriesPerHole = 300;
 constexpr double kLeastReached = 0.4;  // of the aimed area: below, another place is tried
 constexpr double kMostReached = 2.5;
-constexpr double kLeastLength = 0.6;  // of the aimed length, for bands
+constexpr double kLeastLength = 0.6;       // of the aimed length, for bands
 constexpr double kMostOfAComponent = 0.3;  // of its area
 
 void require_watertight(const TriangleSoup& model) {
@@ -27,8 +27,7 @@ void require_watertight(const TriangleSoup& model) {
   const Incidence incidence =
       count_incidence(model.triangles, model.points.size(), silent_observer());
   const IncidenceCounts& counts = incidence.counts;
-  const auto repeated =
-      static_cast<std::int64_t>(model.triangles.size()) - incidence.proper_faces;
+  const auto repeated = static_cast<std::int64_t>(model.triangles.size()) - incidence.proper_faces;
   const std::int64_t wrong = counts.boundary_edges + counts.nonmanifold_edges +
                              counts.misoriented_edges + counts.nonmanifold_vertices + repeated;
   if (wrong == 0) return;
@@ -36,7 +35,8 @@ void require_watertight(const TriangleSoup& model) {
                    " boundary edges, " + std::to_string(counts.nonmanifold_edges) +
                    " non-manifold edges, " + std::to_string(counts.nonmanifold_vertices) +
                    " non-manifold vertices, " + std::to_string(counts.misoriented_edges) +
-                   " misoriented edges, " + std::to_string(repeated) + " faces with a repeated corner");
+                   " misoriented edges, " + std::to_string(repeated) +
+                   " faces with a repeated corner");
 }
 
 // Random numbers one after another.
@@ -86,8 +86,8 @@ class Damager {
   [[nodiscard]] bool has_area() const { return total_ > 0 && std::isfinite(total_); }
   std::size_t number(const DamageOptions& options) {
     const auto range = static_cast<double>(options.most - options.fewest + 1);
-    return options.fewest + std::min(static_cast<std::size_t>(dice_.unit() * range),
-                                     options.most - options.fewest);
+    return options.fewest +
+           std::min(static_cast<std::size_t>(dice_.unit() * range), options.most - options.fewest);
   }
 
   // Tries one place.
@@ -171,10 +171,8 @@ class Damager {
   // belong to the band however wide they are, so that it holds together. Nothing is wanted where
   // the plane runs along the surface.
   Plan plan_band(double length, double width, std::optional<Point3> across) {
-    Plan plan{.seed_face = random_face(nullptr),
-              .area = length * width,
-              .length = length,
-              .wanted = {}};
+    Plan plan{
+        .seed_face = random_face(nullptr), .area = length * width, .length = length, .wanted = {}};
     const Point3 centre = centres_[plan.seed_face];
     const Point3 normal = normals_[plan.seed_face];
     Point3 side = across ? *across : dice_.direction();

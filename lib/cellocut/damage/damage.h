@@ -33,11 +33,11 @@ struct DamageOptions {
 // In input units.
 struct Hole {
   HoleKind kind{};
-  Point3 centre{};     // of the area that is gone
+  Point3 centre{};  // of the area that is gone
   double area = 0;
-  double share = 0;    // of the surface
-  double length = 0;   // the largest distance of two vertices of the boundary
-  double width = 0;    // area / length
+  double share = 0;                     // of the surface
+  double length = 0;                    // the largest distance of two vertices of the boundary
+  double width = 0;                     // area / length
   std::vector<std::uint32_t> faces;     // of the model, ascending
   std::vector<std::uint32_t> boundary;  // vertices of the model along the loop, each once
 };

@@ -20,7 +20,7 @@ using Window = std::array<double, kWindow>;
 Window gaussian_window() {
   Window weights{};
   for (int i = 0; i < kWindow; ++i) {
-    const double x = i - kWindow / 2;  // from the middle, whole pixels
+    const int x = i - (kWindow - 1) / 2;  // from the middle
     weights[i] = std::exp(-x * x / (2 * kSigma * kSigma));
   }
   const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
@@ -32,7 +32,7 @@ Window gaussian_window() {
 // then columns.
 template <class Value>
 std::vector<double> smoothed(int width, int height, const Value& value) {
-  static const Window kWeights = gaussian_window();
+  static const Window weights = gaussian_window();
   const int columns = width - kWindow + 1;
   const int rows = height - kWindow + 1;
   std::vector<double> across(static_cast<std::size_t>(columns) * height);
@@ -40,7 +40,7 @@ std::vector<double> smoothed(int width, int height, const Value& value) {
     for (int x = 0; x < columns; ++x) {
       double sum = 0;
       for (int k = 0; k < kWindow; ++k) {
-        sum += kWeights[k] * value(static_cast<std::size_t>(y) * width + x + k);
+        sum += weights[k] * value(static_cast<std::size_t>(y) * width + x + k);
       }
       across[static_cast<std::size_t>(y) * columns + x] = sum;
     }
@@ -50,7 +50,7 @@ std::vector<double> smoothed(int width, int height, const Value& value) {
     for (int x = 0; x < columns; ++x) {
       double sum = 0;
       for (int k = 0; k < kWindow; ++k) {
-        sum += kWeights[k] * across[static_cast<std::size_t>(y + k) * columns + x];
+        sum += weights[k] * across[static_cast<std::size_t>(y + k) * columns + x];
       }
       result[static_cast<std::size_t>(y) * columns + x] = sum;
     }
@@ -125,7 +125,9 @@ GreyImage grey_image(const View& view) {
 MsSsim ms_ssim(const GreyImage& a, const GreyImage& b) {
   const int scales = fitting_scales(a);
   if (scales == 0) return {};
-  const double sum = std::accumulate(kPowers.begin(), kPowers.begin() + scales, 0.0);
+  // As published, the five add up to 1.0001; they stay as they are.
+  const bool all = scales == static_cast<int>(kPowers.size());
+  const double sum = all ? 1 : std::accumulate(kPowers.begin(), kPowers.begin() + scales, 0.0);
   double product = 1;
   GreyImage first = a;
   GreyImage second = b;

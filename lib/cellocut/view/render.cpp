@@ -48,7 +48,9 @@ struct Renderer {
     const int across = options.antialiasing;
     LinearColour sum{};
     for (int k = 0; k < across * across; ++k) {
-      const Ray r = ray(column + (k % across + 0.5) / across, row + (k / across + 0.5) / across);
+      const int right = k % across;
+      const int down = k / across;
+      const Ray r = ray(column + (right + 0.5) / across, row + (down + 0.5) / across);
       const auto hit = scene.first_hit(r);
       const LinearColour colour =
           hit ? clay_colour(scene, camera, r, *hit, k, across * across) : kBackgroundColour;

@@ -16,7 +16,7 @@ struct RenderOptions {
   int resolution = 512;    // pixels of either edge; 16 to 4096
   double perspective = 0;  // angle of view in degrees, 1 to 120; 0: orthographic
   UpAxis up = UpAxis::y;
-  int antialiasing = 4;  // squared: samples of the clay picture in a pixel, on a grid; 1 to 8
+  int antialiasing = 3;  // squared: samples of the clay picture in a pixel, on a grid; 1 to 8
 
   // Errors: UsageError that names the option and what it may be.
   void validate() const;

@@ -63,7 +63,10 @@ nlohmann::ordered_json damage_json(const DamageArguments& a, const TriangleSoup&
       {"version", kCellocutVersion},
       {"input",
        {{"path", a.mesh}, {"points", model.points.size()}, {"triangles", model.triangles.size()}}},
-      {"parameters", {{"seed", a.options.seed}, {"holes", {a.options.fewest, a.options.most}}}},
+      {"parameters",
+       {{"seed", a.options.seed},
+        {"holes", {a.options.fewest, a.options.most}},
+        {"size", a.options.size}}},
       {"holes", holes},
       {"area", area},
       {"share", share},
@@ -121,6 +124,8 @@ Command add_damage(CLI::App& program) {
   app->add_option("--seed", a.options.seed, "The same seed gives the same bytes")
       ->capture_default_str();
   app->add_option("--holes", a.holes, "How many: MIN..MAX, or a number")->capture_default_str();
+  app->add_option("--size", a.options.size, "Factor on the lengths of the holes, 0.01 to 3")
+      ->capture_default_str();
   a.common.add_to(*app);
   return {app, [arguments] { return run_damage(*arguments); },
           [arguments] { return arguments->mesh; }};

@@ -67,8 +67,12 @@ struct Plan {
 
 class Damager {
  public:
-  Damager(const TriangleSoup& model, std::uint64_t seed)
-      : model_(model), dice_(seed), grower_(model), normals_(unit_normals(model)) {
+  Damager(const TriangleSoup& model, const DamageOptions& options)
+      : model_(model),
+        size_(options.size),
+        dice_(options.seed),
+        grower_(model),
+        normals_(unit_normals(model)) {
     centres_.reserve(model.triangles.size());
     areas_.reserve(model.triangles.size());
     const auto& p = model.points;
@@ -131,11 +135,11 @@ class Damager {
       case HoleKind::grazing:
         return plan_grazing();
       case HoleKind::gap: {
-        const double length = std::sqrt(total_) * dice_.between(0.22, 0.4);
+        const double length = size_ * std::sqrt(total_) * dice_.between(0.22, 0.4);
         return plan_band(length, length / dice_.between(5, 8), std::nullopt);
       }
       case HoleKind::stripe: {
-        const double length = std::sqrt(total_) * dice_.between(0.15, 0.3);
+        const double length = size_ * std::sqrt(total_) * dice_.between(0.15, 0.3);
         return plan_band(length, length / dice_.between(8, 15), scan_lines_);
       }
     }
@@ -157,8 +161,10 @@ class Damager {
       area += areas_[f];
       if (area >= 0.25 * total_) break;
     }
-    Plan plan{
-        .seed_face = 0, .area = total_ * dice_.between(0.008, 0.025), .length = 0, .wanted = {}};
+    Plan plan{.seed_face = 0,
+              .area = size_ * size_ * total_ * dice_.between(0.008, 0.025),
+              .length = 0,
+              .wanted = {}};
     plan.wanted.resize(areas_.size());
     for (const auto& [slope, f] : slopes) plan.wanted[f] = slope <= worst ? 1 : 0;
     plan.seed_face = random_face(&plan.wanted);
@@ -219,6 +225,7 @@ class Damager {
   }
 
   const TriangleSoup& model_;
+  double size_;
   Dice dice_;
   DiscGrower grower_;
   std::vector<Point3> normals_;
@@ -272,12 +279,13 @@ void DamageOptions::validate() const {
   if (fewest < 1 || most > 1000 || fewest > most) {
     throw UsageError("holes must be MIN..MAX with 1 <= MIN <= MAX <= 1000");
   }
+  if (!(size >= 0.01 && size <= 3)) throw UsageError("size must be 0.01 to 3");
 }
 
 Damage damage_mesh(const TriangleSoup& model, const DamageOptions& options, Observer& observer) {
   options.validate();
   require_watertight(model);
-  Damager damager(model, options.seed);
+  Damager damager(model, options);
   if (!damager.has_area()) throw InputError("no face has an area");
   const std::size_t count = damager.number(options);
   Damage damage;

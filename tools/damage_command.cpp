@@ -59,20 +59,21 @@ nlohmann::ordered_json damage_json(const DamageArguments& a, const TriangleSoup&
                      {"faces", hole.faces.size()},
                      {"boundary_edges", hole.boundary.size()}});
   }
-  return {{"version", kCellocutVersion},
-          {"input",
-           {{"path", a.mesh},
-            {"points", model.points.size()},
-            {"triangles", model.triangles.size()}}},
-          {"parameters",
-           {{"seed", a.options.seed}, {"holes", {a.options.fewest, a.options.most}}}},
-          {"holes", holes},
-          {"area", area},
-          {"share", share},
-          {"output",
-           {{"path", a.output},
-            {"points", damage.mesh.points.size()},
-            {"triangles", damage.mesh.triangles.size()}}}};
+  return {
+      {"version", kCellocutVersion},
+      {"input",
+       {{"path", a.mesh}, {"points", model.points.size()}, {"triangles", model.triangles.size()}}},
+      {"parameters",
+       {{"seed", a.options.seed},
+        {"holes", {a.options.fewest, a.options.most}},
+        {"size", a.options.size}}},
+      {"holes", holes},
+      {"area", area},
+      {"share", share},
+      {"output",
+       {{"path", a.output},
+        {"points", damage.mesh.points.size()},
+        {"triangles", damage.mesh.triangles.size()}}}};
 }
 
 void print_holes(const Damage& damage) {
@@ -87,9 +88,8 @@ void print_holes(const Damage& damage) {
 int run_damage(DamageArguments& a) {
   set_holes(a.holes, a.options);
   a.options.validate();
-  const std::optional<MeshFormat> format = a.output_format.empty()
-                                               ? format_of_path(a.output)
-                                               : format_of_name(a.output_format);
+  const std::optional<MeshFormat> format =
+      a.output_format.empty() ? format_of_path(a.output) : format_of_name(a.output_format);
   if (!format) throw UsageError(a.output + ": cannot tell the mesh format; give --output-format");
   require_writable({a.output, a.common.json});
   const ThreadLimit limit(a.common.threads);
@@ -116,8 +116,7 @@ Command add_damage(CLI::App& program) {
       "elongated gaps, scan stripes. Whole faces go, the others stay as they are");
   auto arguments = std::make_shared<DamageArguments>();
   DamageArguments& a = *arguments;
-  app->add_option("mesh", a.mesh, "Closed, manifold mesh: .obj .off .ply .stl, or '-'")
-      ->required();
+  app->add_option("mesh", a.mesh, "Closed, manifold mesh: .obj .off .ply .stl, or '-'")->required();
   app->add_option("--format", a.format, "Format of the mesh: obj, off, ply, stl");
   app->add_option("-o,--output", a.output, "Damaged mesh: .obj .off .ply .stl, or '-'")->required();
   app->add_option("--output-format", a.output_format,
@@ -125,6 +124,8 @@ Command add_damage(CLI::App& program) {
   app->add_option("--seed", a.options.seed, "The same seed gives the same bytes")
       ->capture_default_str();
   app->add_option("--holes", a.holes, "How many: MIN..MAX, or a number")->capture_default_str();
+  app->add_option("--size", a.options.size, "Factor on the lengths of the holes, 0.01 to 3")
+      ->capture_default_str();
   a.common.add_to(*app);
   return {app, [arguments] { return run_damage(*arguments); },
           [arguments] { return arguments->mesh; }};

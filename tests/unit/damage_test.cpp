@@ -124,12 +124,13 @@ TriangleSoup two_parts() {
   return mesh;
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Models, DamageOf,
-    ::testing::Values(Case{"sphere", test::icosphere(4)}, Case{"torus", test::torus(1, 0.4, 96, 40)},
-                      Case{"slab", testing::gridded_box({0, 0, 0}, {3, 1, 0.3}, 24)},
-                      Case{"two_parts", two_parts()}),
-    [](const auto& info) { return std::string(info.param.name); });
+INSTANTIATE_TEST_SUITE_P(Models, DamageOf,
+                         ::testing::Values(Case{"sphere", test::icosphere(4)},
+                                           Case{"torus", test::torus(1, 0.4, 96, 40)},
+                                           Case{"slab",
+                                                testing::gridded_box({0, 0, 0}, {3, 1, 0.3}, 24)},
+                                           Case{"two_parts", two_parts()}),
+                         [](const auto& of) { return std::string(of.param.name); });
 
 TEST(Damage, KindsAreShapedAsTheyAreNamed) {
   const TriangleSoup sphere = test::icosphere(6);  // 81,920 faces
@@ -186,8 +187,11 @@ TEST(Damage, Refuses) {
   }
   EXPECT_THAT([] { damage_mesh(test::bow_tie_vertex(), {}); },
               ThrowsMessage<InputError>(HasSubstr("1 non-manifold vertices")));
-  EXPECT_THAT([] { damage_mesh(test::box({0, 0, 0}, {1, 1, 1}), {}); },
-              ThrowsMessage<InputError>(HasSubstr("too coarse")));
+  EXPECT_THAT(
+      [] {
+        damage_mesh(test::box({0, 0, 0}, {1, 1, 1}), {});
+      },
+      ThrowsMessage<InputError>(HasSubstr("too coarse")));
   EXPECT_THAT([] { damage_mesh(TriangleSoup{}, {}); }, ThrowsMessage<InputError>("no faces"));
   const TriangleSoup good = test::icosphere(3);
   EXPECT_THROW(damage_mesh(good, {.fewest = 0}), UsageError);

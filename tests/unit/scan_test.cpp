@@ -55,9 +55,9 @@ TEST(Scan, OfABoxFullOfClutterIsTheBox) {
   // Evenly: a sixth on each side, within some percent.
   for (int axis = 0; axis < 3; ++axis) {
     for (const double side : {-1.0, 1.0}) {
-      const auto count = std::count_if(
-          scan.cloud.normals.begin(), scan.cloud.normals.end(),
-          [&](const Point3& n) { return std::fabs(n[axis] - side) < 1e-9; });
+      const auto count =
+          std::count_if(scan.cloud.normals.begin(), scan.cloud.normals.end(),
+                        [&](const Point3& n) { return std::fabs(n[axis] - side) < 1e-9; });
       EXPECT_NEAR(static_cast<double>(count) / static_cast<double>(scan.cloud.points.size()),
                   1.0 / 6, 0.01);
     }
@@ -156,7 +156,8 @@ TEST(Scan, Refuses) {
   for (Point3& p : point.points) p = {1, 2, 3};
   TriangleSoup line = good;
   for (Point3& p : line.points) p = {p[0], 0, 0};
-  EXPECT_THAT([&] { scan_outside(point, kFew); }, ThrowsMessage<InputError>(HasSubstr("no extent")));
+  EXPECT_THAT([&] { scan_outside(point, kFew); },
+              ThrowsMessage<InputError>(HasSubstr("no extent")));
   EXPECT_THAT([&] { scan_outside(line, kFew); },
               ThrowsMessage<InputError>(HasSubstr("nothing is seen")));
   EXPECT_THAT([&] { scan_outside(TriangleSoup{}, kFew); }, ThrowsMessage<InputError>("no faces"));
@@ -170,8 +171,7 @@ TEST(Scan, Refuses) {
 TEST(Scan, PointsAreReadBackAsTheyWere) {
   const Scan scan = scan_outside(test::icosphere(2), kFew);
   const test::TemporaryFolder folder;
-  const PointCloud read =
-      read_point_cloud(folder.file("scan.ply", encode_point_cloud(scan.cloud)));
+  const PointCloud read = read_point_cloud(folder.file("scan.ply", encode_point_cloud(scan.cloud)));
   EXPECT_EQ(read.points, scan.cloud.points);
   ASSERT_EQ(read.normals.size(), scan.cloud.normals.size());
   for (std::size_t i = 0; i < read.normals.size(); ++i) {

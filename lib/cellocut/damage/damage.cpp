@@ -19,6 +19,7 @@ namespace {
 constexpr int kTriesPerHole = 300;
 constexpr double kLeastReached = 0.4;  // of the aimed area: below, another place is tried
 constexpr double kMostReached = 2.5;
+constexpr double kLeastLength = 0.6;       // of the aimed length, for bands
 constexpr double kMostOfAComponent = 0.3;  // of its area
 
 void require_watertight(const TriangleSoup& model) {
@@ -26,8 +27,7 @@ void require_watertight(const TriangleSoup& model) {
   const Incidence incidence =
       count_incidence(model.triangles, model.points.size(), silent_observer());
   const IncidenceCounts& counts = incidence.counts;
-  const auto repeated =
-      static_cast<std::int64_t>(model.triangles.size()) - incidence.proper_faces;
+  const auto repeated = static_cast<std::int64_t>(model.triangles.size()) - incidence.proper_faces;
   const std::int64_t wrong = counts.boundary_edges + counts.nonmanifold_edges +
                              counts.misoriented_edges + counts.nonmanifold_vertices + repeated;
   if (wrong == 0) return;
@@ -35,7 +35,8 @@ void require_watertight(const TriangleSoup& model) {
                    " boundary edges, " + std::to_string(counts.nonmanifold_edges) +
                    " non-manifold edges, " + std::to_string(counts.nonmanifold_vertices) +
                    " non-manifold vertices, " + std::to_string(counts.misoriented_edges) +
-                   " misoriented edges, " + std::to_string(repeated) + " faces with a repeated corner");
+                   " misoriented edges, " + std::to_string(repeated) +
+                   " faces with a repeated corner");
 }
 
 // Random numbers one after another.
@@ -60,13 +61,18 @@ class Dice {
 struct Plan {
   std::uint32_t seed_face = 0;
   double area = 0;
+  double length = 0;                 // of a band; 0 for a patch, and for what cannot be a band
   std::vector<std::uint8_t> wanted;  // by face
 };
 
 class Damager {
  public:
-  Damager(const TriangleSoup& model, std::uint64_t seed)
-      : model_(model), dice_(seed), grower_(model), normals_(unit_normals(model)) {
+  Damager(const TriangleSoup& model, const DamageOptions& options)
+      : model_(model),
+        size_(options.size),
+        dice_(options.seed),
+        grower_(model),
+        normals_(unit_normals(model)) {
     centres_.reserve(model.triangles.size());
     areas_.reserve(model.triangles.size());
     const auto& p = model.points;
@@ -84,13 +90,14 @@ class Damager {
   [[nodiscard]] bool has_area() const { return total_ > 0 && std::isfinite(total_); }
   std::size_t number(const DamageOptions& options) {
     const auto range = static_cast<double>(options.most - options.fewest + 1);
-    return options.fewest + std::min(static_cast<std::size_t>(dice_.unit() * range),
-                                     options.most - options.fewest);
+    return options.fewest +
+           std::min(static_cast<std::size_t>(dice_.unit() * range), options.most - options.fewest);
   }
 
   // Tries one place.
   std::optional<Hole> try_hole(HoleKind kind) {
     const Plan plan = plan_hole(kind);
+    if (plan.wanted.empty()) return std::nullopt;
     const Point3 centre = centres_[plan.seed_face];
     std::vector<std::uint32_t> disc = grower_.grow(
         plan.seed_face, plan.area, [&](std::uint32_t f) { return plan.wanted[f] != 0; },
@@ -99,8 +106,10 @@ class Damager {
     for (const std::uint32_t f : disc) area += areas_[f];
     if (area < kLeastReached * plan.area || area > kMostReached * plan.area) return std::nullopt;
     if (area > kMostOfAComponent * component_area_[component_[plan.seed_face]]) return std::nullopt;
-    grower_.keep_out(disc);
-    return describe(kind, std::move(disc), area);
+    Hole hole = describe(kind, std::move(disc), area);
+    if (hole.length < kLeastLength * plan.length) return std::nullopt;
+    grower_.keep_out(hole.faces);
+    return hole;
   }
 
  private:
@@ -126,11 +135,11 @@ class Damager {
       case HoleKind::grazing:
         return plan_grazing();
       case HoleKind::gap: {
-        const double length = std::sqrt(total_) * dice_.between(0.22, 0.4);
+        const double length = size_ * std::sqrt(total_) * dice_.between(0.22, 0.4);
         return plan_band(length, length / dice_.between(5, 8), std::nullopt);
       }
       case HoleKind::stripe: {
-        const double length = std::sqrt(total_) * dice_.between(0.15, 0.3);
+        const double length = size_ * std::sqrt(total_) * dice_.between(0.15, 0.3);
         return plan_band(length, length / dice_.between(8, 15), scan_lines_);
       }
     }
@@ -152,31 +161,38 @@ class Damager {
       area += areas_[f];
       if (area >= 0.25 * total_) break;
     }
-    Plan plan{.seed_face = 0, .area = total_ * dice_.between(0.008, 0.025), .wanted = {}};
+    Plan plan{.seed_face = 0,
+              .area = size_ * size_ * total_ * dice_.between(0.008, 0.025),
+              .length = 0,
+              .wanted = {}};
     plan.wanted.resize(areas_.size());
     for (const auto& [slope, f] : slopes) plan.wanted[f] = slope <= worst ? 1 : 0;
     plan.seed_face = random_face(&plan.wanted);
     return plan;
   }
 
-  // The band around a seed: at most half a length from it, and half a width from the plane through
-  // it that runs along the surface. `across`: the normal of that plane, made tangent; random where
-  // there is none. Faces that the plane cuts belong to it however wide they are, so that the band
-  // holds together.
+  // The band around a seed, on its side of the model: at most half a length from it, and half a
+  // width, along the surface, from a plane through it. `across`: the normal of that plane; at right
+  // angles to the seed's normal and else random where there is none. Faces that the plane cuts
+  // belong to the band however wide they are, so that it holds together. Nothing is wanted where
+  // the plane runs along the surface.
   Plan plan_band(double length, double width, std::optional<Point3> across) {
-    Plan plan{.seed_face = random_face(nullptr), .area = length * width, .wanted = {}};
+    Plan plan{
+        .seed_face = random_face(nullptr), .area = length * width, .length = length, .wanted = {}};
     const Point3 centre = centres_[plan.seed_face];
     const Point3 normal = normals_[plan.seed_face];
-    const Point3 rough = across ? *across : dice_.direction();
-    Point3 side = rough;
-    if (!across) {
-      side = rough - dot(rough, normal) * normal;
-      if (!(norm(side) > 1e-6)) return plan_band(length, width, std::nullopt);
-      side = (1 / norm(side)) * side;
-    }
+    Point3 side = across ? *across : dice_.direction();
+    const Point3 tangent = side - dot(side, normal) * normal;
+    const double slope = norm(tangent);
+    constexpr double kLeastSlope = 0.5;
+    if (!(slope >= kLeastSlope)) return plan;
+    // On the surface the same width is less across planes that meet it aslant.
+    const double half_width = across ? slope * width / 2 : width / 2;
+    if (!across) side = (1 / slope) * tangent;
     plan.wanted.resize(areas_.size());
     for (std::size_t f = 0; f < areas_.size(); ++f) {
-      if (norm(centres_[f] - centre) > length / 2 || dot(normals_[f], normal) < -0.5) continue;
+      constexpr double kSameSide = 0.2;  // cosine
+      if (norm(centres_[f] - centre) > length / 2 || dot(normals_[f], normal) < kSameSide) continue;
       double low = std::numeric_limits<double>::infinity();
       double high = -low;
       for (const std::uint32_t corner : model_.triangles[f]) {
@@ -184,7 +200,7 @@ class Damager {
         low = std::min(low, height);
         high = std::max(high, height);
       }
-      const bool within = std::fabs(dot(centres_[f] - centre, side)) <= width / 2;
+      const bool within = std::fabs(dot(centres_[f] - centre, side)) <= half_width;
       plan.wanted[f] = within || (low <= 0 && high >= 0) ? 1 : 0;
     }
     return plan;
@@ -209,6 +225,7 @@ class Damager {
   }
 
   const TriangleSoup& model_;
+  double size_;
   Dice dice_;
   DiscGrower grower_;
   std::vector<Point3> normals_;
@@ -262,12 +279,13 @@ void DamageOptions::validate() const {
   if (fewest < 1 || most > 1000 || fewest > most) {
     throw UsageError("holes must be MIN..MAX with 1 <= MIN <= MAX <= 1000");
   }
+  if (!(size >= 0.01 && size <= 3)) throw UsageError("size must be 0.01 to 3");
 }
 
 Damage damage_mesh(const TriangleSoup& model, const DamageOptions& options, Observer& observer) {
   options.validate();
   require_watertight(model);
-  Damager damager(model, options.seed);
+  Damager damager(model, options);
   if (!damager.has_area()) throw InputError("no face has an area");
   const std::size_t count = damager.number(options);
   Damage damage;

@@ -25,6 +25,7 @@ struct DamageOptions {
   // How many holes; the number itself is random. 1 to 1000.
   std::size_t fewest = 6;
   std::size_t most = 12;
+  double size = 1;  // factor on the lengths of all holes, 0.01 to 3
 
   // Errors: UsageError.
   void validate() const;
@@ -33,11 +34,11 @@ struct DamageOptions {
 // In input units.
 struct Hole {
   HoleKind kind{};
-  Point3 centre{};     // of the area that is gone
+  Point3 centre{};  // of the area that is gone
   double area = 0;
-  double share = 0;    // of the surface
-  double length = 0;   // the largest distance of two vertices of the boundary
-  double width = 0;    // area / length
+  double share = 0;                     // of the surface
+  double length = 0;                    // the largest distance of two vertices of the boundary
+  double width = 0;                     // area / length
   std::vector<std::uint32_t> faces;     // of the model, ascending
   std::vector<std::uint32_t> boundary;  // vertices of the model along the loop, each once
 };
@@ -52,7 +53,8 @@ struct Damage {
 // there. Every hole is a disc (disc_patch.h) that shares no vertex and no face around a vertex with
 // another, so each leaves one simple loop of boundary edges, no pinched vertex, and no more
 // components than there were. Kinds take turns. Aimed sizes, by the area A of the surface: grazing
-// 0.8 to 2.5 % of A; gap 0.22 to 0.4 sqrt(A) long; stripe 0.15 to 0.3 sqrt(A) long.
+// 0.8 to 2.5 % of A; gap 0.22 to 0.4 sqrt(A) long; stripe 0.15 to 0.3 sqrt(A) long; all times
+// `size`.
 //
 // Errors: UsageError by options.validate(); InputError where the model is not closed, oriented and
 // manifold by index, or so coarse that `fewest` holes of such sizes find no room; Cancelled.

@@ -30,6 +30,12 @@ DiscGrower::DiscGrower(const TriangleSoup& mesh)
   }
 }
 
+bool DiscGrower::notch(std::uint32_t face) const {
+  const auto& around = neighbour_[face];
+  return std::count_if(around.begin(), around.end(),
+                       [this](std::uint32_t next) { return in_disc_[next] != 0; }) >= 2;
+}
+
 bool DiscGrower::fits(std::uint32_t face) const {
   const Triangle& t = mesh_.triangles[face];
   int shared = 0;
@@ -59,7 +65,9 @@ std::vector<std::uint32_t> DiscGrower::grow(std::uint32_t seed, double largest,
     for (const std::uint32_t corner : t) vertex_in_disc_[corner] = 1;
     // Whoever did not fit before gets another chance when a neighbour has come in.
     for (const std::uint32_t next : neighbour_[face]) {
-      if (in_disc_[next] == 0 && wanted(next)) queue.emplace(distance(next), next);
+      if (in_disc_[next] == 0 && (wanted(next) || notch(next))) {
+        queue.emplace(distance(next), next);
+      }
     }
   };
   const Triangle& first = mesh_.triangles[seed];

@@ -25,7 +25,9 @@ class DiscGrower {
   explicit DiscGrower(const TriangleSoup& mesh);
 
   // The disc grown from `seed` over faces for which wanted(face), those with the lowest
-  // distance(face) first; no corner of a kept-out vertex. Stops where the area reaches `largest`.
+  // distance(face) first, and over any face with the disc on two sides of it, which takes notches
+  // and slivers out of the loop; no corner of a kept-out vertex. Stops where the area reaches
+  // `largest`.
   // Empty where the seed itself is not possible. Ascending. O(k log k) for k faces looked at.
   [[nodiscard]] std::vector<std::uint32_t> grow(
       std::uint32_t seed, double largest, const std::function<bool(std::uint32_t)>& wanted,
@@ -39,6 +41,8 @@ class DiscGrower {
 
  private:
   [[nodiscard]] bool fits(std::uint32_t face) const;
+  // Whether the disc is on two sides of it.
+  [[nodiscard]] bool notch(std::uint32_t face) const;
 
   const TriangleSoup& mesh_;
   std::vector<std::array<std::uint32_t, 3>> neighbour_;  // over the edge from corner k to k + 1

@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "cellocut/base/errors.h"
+#include "cellocut/base/line_coverage.h"
 #include "cellocut/measure/sampling.h"
 
 namespace cellocut {
@@ -16,11 +17,37 @@ namespace {
 
 // Beyond this many units from the frame, single precision places nothing any more.
 constexpr double kFarthest = 1e6;
-// How far Embree's distances may be off: some units in the last place of single precision, of the
-// coordinates and of the distance.
-float slack(float distance) { return 1e-6F + 1e-5F * std::fabs(distance); }
 // Distances are compared as multiples of this, so that coincident faces are at the same.
 constexpr double kSameDistance = 1e-9;
+
+// A ray in doubles, and as seen along itself. Sheared, not turned: which axis the ray runs along
+// most is all that decides between the three ways to look along it (Woop, Benthin and Wald,
+// "Watertight ray/triangle intersection", 2013).
+struct Line {
+  Point3 origin;
+  Point3 direction;
+  int along = 0;
+  double shear_y = 0;
+  double shear_z = 0;
+
+  explicit Line(const Ray& ray) : origin(ray.origin), direction(ray.direction) {
+    for (int axis = 1; axis < 3; ++axis) {
+      if (std::fabs(direction[axis]) > std::fabs(direction[along])) along = axis;
+    }
+    shear_y = direction[(along + 1) % 3] / direction[along];
+    shear_z = direction[(along + 2) % 3] / direction[along];
+  }
+
+  // A function of the line and the point alone: a corner lies in the same place for every face at
+  // it.
+  [[nodiscard]] Flat flat(const Point3& p) const {
+    const Point3 q = p - origin;
+    return {q[(along + 1) % 3] - shear_y * q[along], q[(along + 2) % 3] - shear_z * q[along]};
+  }
+  [[nodiscard]] double depth(const Point3& p) const {
+    return (p[along] - origin[along]) / direction[along];
+  }
+};
 
 }  // namespace
 
@@ -42,16 +69,43 @@ struct RayScene::Scene {
   }
 
   void build();
-  // Along the ray to the plane of the face; `found`, Embree's answer, where rounding makes that no
-  // better (a face seen edge-on).
-  [[nodiscard]] double distance_to(std::uint32_t face, const Ray& ray, float found) const {
-    const double slope = dot(normals[face], ray.direction);
-    const double distance = dot(normals[face], points[faces[face][0]] - ray.origin) / slope;
-    return std::fabs(distance - found) <= slack(found) ? distance : found;
+
+  // Room for the rounding of boxes, and of rays that begin at most a little outside the mesh.
+  [[nodiscard]] double margin() const { return 2e-6 * std::max(1.0, radius); }
+
+  // Where the line passes through the face, in lengths of its direction; infinite where it does
+  // not.
+  [[nodiscard]] double distance_to(std::uint32_t face, const Line& line) const {
+    const Point3& a = points[faces[face][0]];
+    const Point3& b = points[faces[face][1]];
+    const Point3& c = points[faces[face][2]];
+    if (!line_passes(line.flat(a), line.flat(b), line.flat(c), {0, 0})) {
+      return std::numeric_limits<double>::infinity();
+    }
+    const auto [low, high] = std::minmax({line.depth(a), line.depth(b), line.depth(c)});
+    const double slope = dot(normals[face], line.direction);
+    if (slope == 0) return low;
+    return std::clamp(dot(normals[face], a - line.origin) / slope, low, high);
   }
+
+  static void bounds(const RTCBoundsFunctionArguments* a);
+  static void intersect(const RTCIntersectFunctionNArguments* a);
+  static void occlude(const RTCOccludedFunctionNArguments* a);
 };
 
 namespace {
+
+// What a search along a ray knows; its first member's address is what Embree hands on.
+struct Search {
+  RTCIntersectContext context{};
+  Line line;
+  // The nearest so far: distance in steps, back seen, face.
+  std::tuple<double, bool, std::uint32_t> best{std::numeric_limits<double>::infinity(), true, 0};
+  double distance = std::numeric_limits<double>::infinity();  // of it, or up to which to look
+  double skipped = 0;  // from the line's origin to that of Embree's ray
+
+  explicit Search(const Ray& ray) : line(ray) { rtcInitIntersectContext(&context); }
+};
 
 void check(RTCDevice device) {
   if (rtcGetDeviceError(device) != RTC_ERROR_NONE) {
@@ -59,43 +113,80 @@ void check(RTCDevice device) {
   }
 }
 
-RTCRay embree_ray(const Ray& ray, float farthest) {
+// The ray for Embree's boxes, in single precision. It begins where the line enters a sphere around
+// the mesh, so that coordinates are no larger than the mesh's; `skipped` says how far that is.
+RTCRay embree_ray(const Ray& ray, double radius, double& skipped) {
+  const double length = norm(ray.direction);
+  const double nearest = -dot(ray.origin, ray.direction) / (length * length);
+  skipped = std::max(0.0, nearest - 1.1 * radius / length);
+  const Point3 start = ray.origin + skipped * ray.direction;
   RTCRay result{};
-  result.org_x = static_cast<float>(ray.origin[0]);
-  result.org_y = static_cast<float>(ray.origin[1]);
-  result.org_z = static_cast<float>(ray.origin[2]);
+  result.org_x = static_cast<float>(start[0]);
+  result.org_y = static_cast<float>(start[1]);
+  result.org_z = static_cast<float>(start[2]);
   result.dir_x = static_cast<float>(ray.direction[0]);
   result.dir_y = static_cast<float>(ray.direction[1]);
   result.dir_z = static_cast<float>(ray.direction[2]);
   result.tnear = 0;
-  result.tfar = farthest;
+  result.tfar = std::numeric_limits<float>::infinity();
   result.mask = 0xFFFFFFFFU;
   return result;
 }
 
 }  // namespace
 
+void RayScene::Scene::bounds(const RTCBoundsFunctionArguments* a) {
+  const auto& self = *static_cast<const Scene*>(a->geometryUserPtr);
+  const Triangle& t = self.faces[a->primID];
+  Box3 box{self.points[t[0]], self.points[t[0]]};
+  box.include(self.points[t[1]]);
+  box.include(self.points[t[2]]);
+  const double margin = self.margin();
+  RTCBounds& bounds = *a->bounds_o;
+  bounds.lower_x = static_cast<float>(box.low[0] - margin);
+  bounds.lower_y = static_cast<float>(box.low[1] - margin);
+  bounds.lower_z = static_cast<float>(box.low[2] - margin);
+  bounds.upper_x = static_cast<float>(box.high[0] + margin);
+  bounds.upper_y = static_cast<float>(box.high[1] + margin);
+  bounds.upper_z = static_cast<float>(box.high[2] + margin);
+}
+
+void RayScene::Scene::intersect(const RTCIntersectFunctionNArguments* a) {
+  const auto& self = *static_cast<const Scene*>(a->geometryUserPtr);
+  auto& search = *reinterpret_cast<Search*>(a->context);
+  const double distance = self.distance_to(a->primID, search.line);
+  if (!(distance > 0) || std::isinf(distance)) return;
+  const bool back = dot(self.normals[a->primID], search.line.direction) > 0;
+  const std::tuple key{std::floor(distance / kSameDistance), back, a->primID};
+  if (key >= search.best) return;
+  search.best = key;
+  search.distance = distance;
+  // Boxes that begin a little behind are still looked into.
+  const double length = norm(search.line.direction);
+  const double far = distance - search.skipped + 4 * self.margin() / length;
+  reinterpret_cast<RTCRayHit*>(a->rayhit)->ray.tfar =
+      std::nextafter(static_cast<float>(far), std::numeric_limits<float>::infinity());
+}
+
+void RayScene::Scene::occlude(const RTCOccludedFunctionNArguments* a) {
+  const auto& self = *static_cast<const Scene*>(a->geometryUserPtr);
+  const auto& search = *reinterpret_cast<const Search*>(a->context);
+  const double distance = self.distance_to(a->primID, search.line);
+  if (!(distance > 0) || distance > search.distance) return;
+  reinterpret_cast<RTCRay*>(a->ray)->tfar = -std::numeric_limits<float>::infinity();
+}
+
 void RayScene::Scene::build() {
   device = rtcNewDevice(nullptr);
   if (device == nullptr) throw Error("Embree cannot be started");
   scene = rtcNewScene(device);
-  rtcSetSceneFlags(scene, static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST |
-                                                     RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION));
-  RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-  auto* places = static_cast<float*>(rtcSetNewGeometryBuffer(
-      geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), points.size()));
-  auto* corners = static_cast<std::uint32_t*>(
-      rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                              3 * sizeof(std::uint32_t), faces.size()));
-  if (places == nullptr || corners == nullptr) {
-    rtcReleaseGeometry(geometry);
-    throw LimitError("Embree cannot build its hierarchy: out of memory");
-  }
-  for (const Point3& p : points) {
-    places = std::transform(p.begin(), p.end(), places,
-                            [](double value) { return static_cast<float>(value); });
-  }
-  for (const Triangle& t : faces) corners = std::copy(t.begin(), t.end(), corners);
+  rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
+  RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);
+  rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(faces.size()));
+  rtcSetGeometryUserData(geometry, this);
+  rtcSetGeometryBoundsFunction(geometry, &Scene::bounds, nullptr);
+  rtcSetGeometryIntersectFunction(geometry, &Scene::intersect);
+  rtcSetGeometryOccludedFunction(geometry, &Scene::occlude);
   rtcCommitGeometry(geometry);
   rtcAttachGeometry(scene, geometry);
   rtcReleaseGeometry(geometry);
@@ -135,48 +226,12 @@ double RayScene::radius() const { return scene_->radius; }
 
 std::optional<RayScene::Hit> RayScene::first_hit(const Ray& ray) const {
   if (scene_->scene == nullptr) return std::nullopt;
-  RTCIntersectContext plain;
-  rtcInitIntersectContext(&plain);
-  RTCRayHit nearest{};
-  nearest.ray = embree_ray(ray, std::numeric_limits<float>::infinity());
-  nearest.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-  rtcIntersect1(scene_->scene, &plain, &nearest);
-  if (nearest.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
-
-  // Which of several faces Embree found depends on its search: all that lie about as near are
-  // looked at again.
-  struct Search {
-    RTCIntersectContext context;  // first: its address is what the filter is given
-    const Scene* scene;
-    const Ray* ray;
-    std::tuple<double, bool, std::uint32_t> best;  // distance in steps, back seen, face
-    double distance;
-    static void look_at(const RTCFilterFunctionNArguments* a) {
-      auto& search = *reinterpret_cast<Search*>(a->context);
-      const auto* found = reinterpret_cast<const RTCRay*>(a->ray);
-      const auto* hit = reinterpret_cast<const RTCHit*>(a->hit);
-      const double distance = search.scene->distance_to(hit->primID, *search.ray, found->tfar);
-      const bool back = dot(search.scene->normals[hit->primID], search.ray->direction) > 0;
-      const std::tuple key{std::floor(distance / kSameDistance), back, hit->primID};
-      if (key < search.best) {
-        search.best = key;
-        search.distance = distance;
-      }
-      a->valid[0] = 0;  // go on
-    }
-  };
-  Search search{.context = {},
-                .scene = scene_.get(),
-                .ray = &ray,
-                .best = {std::numeric_limits<double>::infinity(), true, 0},
-                .distance = 0};
-  rtcInitIntersectContext(&search.context);
-  search.context.filter = &Search::look_at;
-  RTCRayHit candidates{};
-  candidates.ray = embree_ray(ray, nearest.ray.tfar + slack(nearest.ray.tfar));
-  candidates.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-  rtcIntersect1(scene_->scene, &search.context, &candidates);
-  if (std::isinf(std::get<0>(search.best))) return std::nullopt;  // at the origin itself
+  Search search(ray);
+  RTCRayHit found{};
+  found.ray = embree_ray(ray, scene_->radius, search.skipped);
+  found.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  rtcIntersect1(scene_->scene, &search.context, &found);
+  if (std::isinf(search.distance)) return std::nullopt;
   const std::uint32_t face = std::get<2>(search.best);
   return Hit{.face = scene_->source[face],
              .distance = search.distance,
@@ -186,10 +241,10 @@ std::optional<RayScene::Hit> RayScene::first_hit(const Ray& ray) const {
 
 bool RayScene::is_blocked(const Ray& ray, double distance) const {
   if (scene_->scene == nullptr) return false;
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  RTCRay shadow = embree_ray(ray, static_cast<float>(distance));
-  rtcOccluded1(scene_->scene, &context, &shadow);
+  Search search(ray);
+  search.distance = distance;
+  RTCRay shadow = embree_ray(ray, scene_->radius, search.skipped);
+  rtcOccluded1(scene_->scene, &search.context, &shadow);
   return shadow.tfar < 0;
 }
 

@@ -10,9 +10,12 @@
 
 namespace cellocut {
 
-// Embree's hierarchy finds the candidates in single precision, without gaps between faces that
-// share an edge; which of them is first is decided in doubles, so that the order in which the
-// hierarchy is built and searched decides nothing: the same bits for any number of threads.
+// Embree's hierarchy of boxes finds the candidates, with room for its single precision; everything
+// else is decided in doubles: every corner is projected along the ray once, and whether the ray
+// passes through a face is an exact predicate on the projected corners (line_coverage.h). So there
+// is no gap at edges or corners that faces share, where Embree's own triangles let a ray in some
+// thousands through when it is aimed at a corner; and the order in which the hierarchy is built and
+// searched decides nothing: the same bits for any number of threads.
 //
 // Faces without area are not there.
 class RayScene {

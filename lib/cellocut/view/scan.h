@@ -21,23 +21,24 @@ struct ScanOptions {
 };
 
 struct Scan {
-  PointCloud cloud;          // in input units; unit normals that face the viewer
-  std::uint64_t rays = 0;    // shot
-  std::uint64_t hits = 0;    // first hits of these
-  std::uint64_t grazing = 0; // hits that were left out, see below
-  double spacing = 0;        // relative: no two points that face the same way are closer
-  double unit = 1;           // the longest edge in input units
+  PointCloud cloud;           // in input units; unit normals that face the viewer
+  std::uint64_t rays = 0;     // shot
+  std::uint64_t hits = 0;     // first hits of these
+  std::uint64_t grazing = 0;  // hits that were left out, see below
+  double spacing = 0;         // relative: no two points that face the same way are closer
+  double unit = 1;            // the longest edge in input units
 };
 
 // Viewpoints stand evenly on a sphere around the mesh (a Fibonacci lattice; Swinbank and Purser,
 // "Fibonacci grids", 2006), at three times the radius of its bounding sphere. From each, rays go to
 // points spread evenly over the disc that the bounding sphere covers (a sunflower pattern, turned
 // by a random angle for each viewpoint). Where a ray first meets a face, the point and the face's
-// normal, turned to the viewer, are noted: what lies behind is never seen. A sheet without thickness
-// is seen from both sides, so gets points with both normals. The mesh's orientation does not matter.
+// normal, turned to the viewer, are noted: what lies behind is never seen. A sheet without
+// thickness is seen from both sides, so gets points with both normals. The mesh's orientation does
+// not matter.
 //
-// Embree intersects without gaps between faces that share an edge (RTC_SCENE_FLAG_ROBUST), so no
-// ray slips into a closed surface; where a mesh has a crack, what lies behind it is visible.
+// There are no gaps between faces that share an edge or a corner (ray_scene.h), so no ray slips
+// into a closed surface; where a mesh has a crack, what lies behind it is visible.
 // Hits at less than about a degree are left out: there the place of the hit on the face is worst,
 // and other viewpoints see it better.
 //

@@ -20,7 +20,8 @@ std::vector<std::uint32_t> shuffled(std::size_t count, std::uint64_t seed) {
   for (std::uint32_t i = 0; i < count; ++i) order[i] = {random.bits(i), i};
   tbb::parallel_sort(order.begin(), order.end());
   std::vector<std::uint32_t> result(count);
-  std::transform(order.begin(), order.end(), result.begin(), [](const auto& o) { return o.second; });
+  std::transform(order.begin(), order.end(), result.begin(),
+                 [](const auto& o) { return o.second; });
   return result;
 }
 

@@ -20,8 +20,8 @@ int run_program(int argc, char** argv) {
   program.set_version_flag("--version", kCellocutVersion);
   program.require_subcommand(1);
   std::vector<Command> commands{add_remesh(program), add_compare(program),  add_solve(program),
-                                add_check(program),  add_evaluate(program), add_scan(program), add_damage(program), add_render(program),
-                                add_list(program)};
+                                add_check(program),  add_evaluate(program), add_scan(program),
+                                add_damage(program), add_render(program),   add_list(program)};
 #ifdef CELLOCUT_WITH_VIZ
   commands.push_back(add_section(program));
 #endif

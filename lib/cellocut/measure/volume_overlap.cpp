@@ -116,8 +116,7 @@ InsideTest::Place InsideTest::operator()(const Point3& p) const {
   // point of it still does so afterwards.
   FloatBox ray = float_box({faces_->frame(p)});
   ray.high[2] = std::numeric_limits<float>::infinity();
-  const auto near = [&ray](const FloatBox& box) { return overlap(box, ray); };
-  faces_->tree.visit_boxes(near, [&](std::uint32_t face) {
+  faces_->tree.visit_boxes(ray, [&](std::uint32_t face) {
     const Triangle& t = faces_->triangles[face];
     const Point3& a = faces_->points[t[0]];
     const Point3& b = faces_->points[t[1]];

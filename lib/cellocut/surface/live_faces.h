@@ -41,8 +41,7 @@ class LiveFaces {
   // on the history of calls alone. O(log n + found) where faces do not crowd.
   template <class Visit>
   void find(const FloatBox& box, const Visit& visit) const {
-    tree_->visit_boxes(
-        box, [](const FloatBox&) { return true; }, visit);
+    tree_->visit_boxes(box, visit);
   }
 
  private:

@@ -161,6 +161,12 @@ class BoxTree {
     }
   }
 
+  // Calls visit(id) for each box that overlaps the given one.
+  template <class Visit>
+  void visit_boxes(const FloatBox& box, const Visit& visit) const {
+    visit_boxes(box, &always, visit);
+  }
+
   // Calls visit(id) for each box that overlaps the given one and for which `wanted(box)` holds;
   // `wanted` must hold for a box that contains one for which it holds.
   template <class Wanted, class Visit>

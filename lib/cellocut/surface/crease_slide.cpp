@@ -1,5 +1,6 @@
 #include "cellocut/surface/crease_slide.h"
 
+#include <array>
 #include <cmath>
 
 namespace cellocut {
@@ -45,34 +46,43 @@ void CreaseSlide::consider(std::uint32_t vertex, std::uint32_t other) {
 
 Point3 CreaseSlide::operator()(std::uint32_t vertex, const Point3& to) const {
   if (partner_[vertex] == kNone) return to;
-  const double whole = slide(vertex, to, kLongest * offset_).length;
-  return slide(vertex, to, kShare * whole).place;
+  const Point3& facing = targets_[partner_[vertex]].direction;
+  const double step = kStep * offset_;
+  // The whole way first.
+  constexpr int kMostSteps = static_cast<int>(kLongest / kStep);
+  std::array<Footing, kMostSteps + 1> way;
+  way[0] = {to, targets_[vertex].direction};
+  int steps = 0;
+  while (steps < kMostSteps) {
+    const std::optional<Footing> next = step_down(way[steps], facing, step);
+    if (!next) break;
+    way[++steps] = *next;
+  }
+  const double length = kShare * steps;  // in steps
+  const int whole = static_cast<int>(length);
+  if (length == whole) return way[whole].place;
+  const std::optional<Footing> end = step_down(way[whole], facing, (length - whole) * step);
+  return end ? end->place : way[whole].place;
 }
 
-// Goes down the vertex's side, away from where the other side faces, until another part of the
-// input comes near, the side turns away, or `limit` is reached.
-CreaseSlide::End CreaseSlide::slide(std::uint32_t vertex, const Point3& from, double limit) const {
-  const Point3& facing = targets_[partner_[vertex]].direction;
-  Point3 side = targets_[vertex].direction;
-  End end{from, 0};
-  while (end.length < limit) {
-    const Point3 down = dot(side, facing) * side - facing;
-    const double length = std::sqrt(squared_norm(down));
-    if (!(length > 0.05)) break;  // the other side faces this one: there is no bottom
-    const double step = std::fmin(kStep * offset_, limit - end.length);
-    const Point3 next = end.place + (step / length) * down;
-    const NearestPoint nearest = input_(next, offset_);
-    if (!nearest.found() || !(nearest.distance > 0)) break;
-    const Point3 next_side = (1 / nearest.distance) * (next - nearest.point);
-    if (dot(next_side, side) < kMostTurn) break;
-    const Point3 place = nearest.point + distance_ * next_side;
-    if (input_.may_separate(end.place, place)) break;
-    if (input_(place, 2 * distance_).distance < 0.5 * distance_) break;
-    end.place = place;
-    end.length += step;
-    side = next_side;
-  }
-  return end;
+// Goes a step along its side of the input, away from where the other side faces. None where there
+// is no bottom, where another part of the input is near or in between, or where the side turns
+// away.
+std::optional<CreaseSlide::Footing> CreaseSlide::step_down(const Footing& from,
+                                                           const Point3& facing,
+                                                           double step) const {
+  const Point3 down = dot(from.side, facing) * from.side - facing;
+  const double length = std::sqrt(squared_norm(down));
+  if (!(length > 0.05)) return std::nullopt;  // the other side faces this one
+  const Point3 ahead = from.place + (step / length) * down;
+  const NearestPoint nearest = input_(ahead, offset_);
+  if (!nearest.found() || !(nearest.distance > 0)) return std::nullopt;
+  const Point3 side = (1 / nearest.distance) * (ahead - nearest.point);
+  if (dot(side, from.side) < kMostTurn) return std::nullopt;
+  const Point3 place = nearest.point + distance_ * side;
+  if (input_.may_separate(from.place, place)) return std::nullopt;
+  if (input_(place, 2 * distance_).distance < 0.5 * distance_) return std::nullopt;
+  return Footing{place, side};
 }
 
 }  // namespace cellocut

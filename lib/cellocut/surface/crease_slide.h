@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "cellocut/measure/nearest_triangle.h"
@@ -34,13 +35,14 @@ class CreaseSlide {
   [[nodiscard]] Point3 operator()(std::uint32_t vertex, const Point3& to) const;
 
  private:
-  struct End {
+  struct Footing {
     Point3 place;
-    double length = 0;  // of the way to it
+    Point3 side;  // from the nearest point on the input to the place, of length 1
   };
 
   void consider(std::uint32_t vertex, std::uint32_t other);
-  [[nodiscard]] End slide(std::uint32_t vertex, const Point3& from, double limit) const;
+  [[nodiscard]] std::optional<Footing> step_down(const Footing& from, const Point3& facing,
+                                                 double step) const;
 
   const TriangleSoup& surface_;
   const std::vector<PullTarget>& targets_;

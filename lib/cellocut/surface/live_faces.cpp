@@ -34,7 +34,9 @@ FloatBox LiveFaces::box_of(const Triangle& corners) const {
 
 void LiveFaces::build(const std::vector<std::uint32_t>& ids) {
   tree_.emplace(ids, boxes_);
-  for (std::uint32_t place = 0; place < ids.size(); ++place) place_[tree_->ids()[place]] = place;
+  tbb::parallel_for(std::size_t{0}, ids.size(), [&](std::size_t place) {
+    place_[tree_->ids()[place]] = static_cast<std::uint32_t>(place);
+  });
 }
 
 void LiveFaces::change(std::uint32_t face, const Triangle& corners) {

@@ -19,14 +19,18 @@ namespace {
 
 using Indices = std::vector<std::uint32_t>;
 
-void sort_unique(Indices& indices) {
-  std::sort(indices.begin(), indices.end());
-  indices.erase(std::unique(indices.begin(), indices.end()), indices.end());
+using Pairs = std::vector<FacePair>;
+
+template <class T>
+void sort_unique(std::vector<T>& values) {
+  std::sort(values.begin(), values.end());
+  values.erase(std::unique(values.begin(), values.end()), values.end());
 }
 
-void join(Indices& indices, const Indices& more) {
-  indices.insert(indices.end(), more.begin(), more.end());
-  sort_unique(indices);
+template <class T>
+void join(std::vector<T>& values, const std::vector<T>& more) {
+  values.insert(values.end(), more.begin(), more.end());
+  sort_unique(values);
 }
 
 class Movement {
@@ -45,31 +49,23 @@ class Movement {
     if (moved.empty()) return std::move(result_);
     LiveFaces live(result_.points, triangles_);
     observer_.check();
-    Indices bad = degenerate_among(moved);
-    for (const std::uint32_t face : bad) live.hide(face);
+    Pairs bad = hide_degenerate(moved, live);
     // Where most of the mesh moves, one search for all pairs is the quicker way.
     const bool most = moved.size() > triangles_.size() / 4;
     join(bad, most ? intersecting(live) : intersecting_among(moved, live));
-    result_.bad_faces_at_first = static_cast<std::int64_t>(bad.size());
     if (bad.empty()) return std::move(result_);
+    result_.bad_faces_at_first = count_faces(bad);
 
     const Buckets corners_at(from_.size(), 3 * triangles_.size(),
                              [this](std::size_t i) { return triangles_[i / 3][i % 3]; });
     while (!bad.empty()) {
       observer_.check();
       ++result_.rounds;
-      // What went beyond comes back first: the others wait, to be tested again.
-      Indices changed = faces_at(come_short(bad), corners_at);
-      if (changed.empty()) {
-        changed = faces_at(step_back(bad, corners_at), corners_at);
-        bad.clear();
-      }
+      const Indices changed = faces_at(step_back(bad, corners_at), corners_at);
       for (const std::uint32_t face : changed) live.change(face, triangles_[face]);
-      join(changed, bad);
-      bad = degenerate_among(changed);
-      for (const std::uint32_t face : bad) live.hide(face);
-      // (Pairs of faces that did not change were not bad before: all vertices of a bad pair step
-      // back, unless they have nowhere to go.)
+      bad = hide_degenerate(changed, live);
+      // (Pairs of faces that did not change were not bad before: some vertex of every bad pair
+      // steps back, unless they have nowhere to go.)
       join(bad, intersecting_among(changed, live));
     }
     return std::move(result_);
@@ -77,10 +73,15 @@ class Movement {
 
  private:
   [[nodiscard]] Indices moved_faces() const {
+    std::vector<std::uint8_t> moves(triangles_.size());
+    tbb::parallel_for(std::size_t{0}, triangles_.size(), [&](std::size_t f) {
+      const auto moved = [this](std::uint32_t v) { return from_[v] != beyond_[v]; };
+      moves[f] = std::any_of(triangles_[f].begin(), triangles_[f].end(), moved) ? 1 : 0;
+    });
     Indices faces;
+    faces.reserve(triangles_.size());
     for (std::uint32_t f = 0; f < triangles_.size(); ++f) {
-      const auto moves = [this](std::uint32_t v) { return from_[v] != beyond_[v]; };
-      if (std::any_of(triangles_[f].begin(), triangles_[f].end(), moves)) faces.push_back(f);
+      if (moves[f] != 0) faces.push_back(f);
     }
     return faces;
   }
@@ -90,36 +91,35 @@ class Movement {
     return is_degenerate(result_.points[t[0]], result_.points[t[1]], result_.points[t[2]]);
   }
 
-  [[nodiscard]] Indices degenerate_among(const Indices& faces) const {
+  // The degenerate ones of the faces, each paired with itself; the search finds them no more.
+  [[nodiscard]] Pairs hide_degenerate(const Indices& faces, LiveFaces& live) const {
     std::vector<std::uint8_t> is(faces.size());
     tbb::parallel_for(std::size_t{0}, faces.size(),
                       [&](std::size_t i) { is[i] = degenerate(faces[i]) ? 1 : 0; });
-    Indices found;
+    Pairs found;
     for (std::size_t i = 0; i < faces.size(); ++i) {
-      if (is[i] != 0) found.push_back(faces[i]);
+      if (is[i] == 0) continue;
+      found.emplace_back(faces[i], faces[i]);
+      live.hide(faces[i]);
     }
     return found;
   }
 
-  // All faces that intersect another; those hidden take no part, here and below.
-  [[nodiscard]] Indices intersecting(const LiveFaces& live) const {
-    tbb::enumerable_thread_specific<Indices> found;
+  // All pairs of faces that intersect; those hidden take no part, here and below.
+  [[nodiscard]] Pairs intersecting(const LiveFaces& live) const {
+    tbb::enumerable_thread_specific<Pairs> found;
     visit_intersecting_pairs(
         live.tree(), result_.points, triangles_,
-        [&found](std::uint32_t f, std::uint32_t g) {
-          Indices& faces = found.local();
-          faces.push_back(f);
-          faces.push_back(g);
-        },
+        [&found](std::uint32_t f, std::uint32_t g) { found.local().push_back(std::minmax(f, g)); },
         [this](std::size_t) { observer_.check(); });
     return united(found);
   }
 
-  // Those of the given faces that intersect another, and what they intersect.
-  [[nodiscard]] Indices intersecting_among(const Indices& faces, const LiveFaces& live) const {
-    tbb::enumerable_thread_specific<Indices> found;
+  // Those with one of the given faces.
+  [[nodiscard]] Pairs intersecting_among(const Indices& faces, const LiveFaces& live) const {
+    tbb::enumerable_thread_specific<Pairs> found;
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, faces.size(), 64), [&](const auto& range) {
-      Indices& bad = found.local();
+      Pairs& bad = found.local();
       for (std::size_t i = range.begin(); i < range.end(); ++i) {
         const std::uint32_t face = faces[i];
         const PreparedFace prepared(result_.points, triangles_[face]);
@@ -127,46 +127,60 @@ class Movement {
           const Triangle& t = triangles_[other];
           if (other == face || prepared.certainly_apart(result_.points, t)) return;
           if (!faces_intersect(result_.points, triangles_[face], t)) return;
-          bad.push_back(face);
-          bad.push_back(other);
+          bad.push_back(std::minmax(face, other));
         });
       }
     });
     return united(found);
   }
 
-  static Indices united(const tbb::enumerable_thread_specific<Indices>& parts) {
-    Indices all;
-    for (const Indices& part : parts) join(all, part);
+  static Pairs united(const tbb::enumerable_thread_specific<Pairs>& parts) {
+    Pairs all;
+    for (const Pairs& part : parts) join(all, part);
     return all;
   }
 
-  // Takes those vertices of the bad faces that are beyond back to where they were to go at least;
-  // returns them.
-  Indices come_short(const Indices& bad) {
-    Indices changed;
-    for (const std::uint32_t face : bad) {
-      for (const std::uint32_t v : triangles_[face]) {
-        if (beyond_[v] == to_[v] || result_.fell_short[v] != 0) continue;
-        result_.fell_short[v] = 1;
-        result_.points[v] = to_[v];
-        changed.push_back(v);
-      }
+  static std::int64_t count_faces(const Pairs& pairs) {
+    Indices faces;
+    for (const auto& [f, g] : pairs) {
+      faces.push_back(f);
+      faces.push_back(g);
     }
-    return changed;
+    sort_unique(faces);
+    return static_cast<std::int64_t>(faces.size());
   }
 
-  // Halves the way of the vertices of the bad faces, of which none is beyond; returns the vertices
-  // that this moves. `corners_at`: by vertex, 3 f + k for each corner k of a face f that it is.
-  Indices step_back(const Indices& bad, const Buckets& corners_at) {
-    Indices vertices;
-    for (const std::uint32_t f : bad) {
-      vertices.insert(vertices.end(), triangles_[f].begin(), triangles_[f].end());
+  [[nodiscard]] bool is_beyond(std::uint32_t v) const {
+    return beyond_[v] != to_[v] && result_.fell_short[v] == 0;
+  }
+
+  // Those vertices of a bad pair that are beyond come back to where they were to go at least; where
+  // there are none, the way of all is halved. Returns the vertices that this moves. `corners_at`:
+  // by vertex, 3 f + k for each corner k of a face f that it is.
+  Indices step_back(const Pairs& bad, const Buckets& corners_at) {
+    Indices too_far;
+    Indices in_the_way;
+    for (const auto& [f, g] : bad) {
+      const std::size_t before = too_far.size();
+      for (const std::uint32_t face : {f, g}) {
+        for (const std::uint32_t v : triangles_[face]) {
+          if (is_beyond(v)) too_far.push_back(v);
+        }
+      }
+      if (too_far.size() > before) continue;
+      for (const std::uint32_t face : {f, g}) {
+        in_the_way.insert(in_the_way.end(), triangles_[face].begin(), triangles_[face].end());
+      }
     }
-    sort_unique(vertices);
-    Indices changed;
+    sort_unique(too_far);
+    sort_unique(in_the_way);
+    Indices changed = too_far;
+    for (const std::uint32_t v : too_far) {
+      result_.fell_short[v] = 1;
+      result_.points[v] = to_[v];
+    }
     Indices stuck;
-    for (const std::uint32_t v : vertices) {
+    for (const std::uint32_t v : in_the_way) {
       if (result_.halvings[v] == Retreat::kStayed) continue;
       if (result_.halvings[v] == Retreat::kMostHalvings) {
         stuck.push_back(v);

@@ -86,7 +86,10 @@ bool PreparedFace::certainly_apart(const std::vector<Point3>& points, const Tria
   }
   if (sides == 1 || sides == 2) return true;
   // The common edge, seen along an axis.
-  return count == 1 && across_edge(shared == 6 ? 0 : (shared == 5 ? 1 : 2), others[0]);
+  if (count == 1) return across_edge(shared == 6 ? 0 : (shared == 5 ? 1 : 2), others[0]);
+  // In one plane, as many of a flat part are.
+  const int c = count == 3 ? -1 : (shared == 1 ? 0 : (shared == 2 ? 1 : 2));
+  return across_any_side(c, others, count);
 }
 
 // Whether this face's corners, but for the one given, lie strictly behind the plane and the others
@@ -128,6 +131,39 @@ bool PreparedFace::across_edge(int third, const Point3& p) const {
     if (side_of_line(a, b, point_[third], i, j) * side_of_line(a, b, p, i, j) < 0) return true;
   }
   return false;
+}
+
+// Whether the line of a side, of this face or of the other one, certainly has this face on one side
+// and the other one on the other, seen along the axis closest to this face's normal. They then meet
+// on that line alone: nowhere, or in the common corner that the line goes through. `corner`: that
+// corner of this face, or -1.
+bool PreparedFace::across_any_side(int corner, const std::array<Point3, 3>& others,
+                                   int count) const {
+  int axis = 0;
+  for (int k = 1; k < 3; ++k) {
+    if (std::fabs(normal_[k]) > std::fabs(normal_[axis])) axis = k;
+  }
+  const int i = (axis + 1) % 3;
+  const int j = (axis + 2) % 3;
+  std::array<Point3, 3> that = others;
+  if (count == 2) that[2] = point_[corner];
+  const auto parts = [&](const std::array<Point3, 3>& face, int through,
+                         const std::array<Point3, 3>& rest, int skipped) {
+    for (int third = 0; third < 3; ++third) {
+      if (third == through) continue;
+      const Point3& a = face[(third + 1) % 3];
+      const Point3& b = face[(third + 2) % 3];
+      const int side = side_of_line(a, b, face[third], i, j);
+      bool apart = side != 0;
+      for (int k = 0; k < 3 && apart; ++k) {
+        apart = k == skipped || side_of_line(a, b, rest[k], i, j) == -side;
+      }
+      if (apart) return true;
+    }
+    return false;
+  };
+  const int last = count == 2 ? 2 : -1;
+  return parts(point_, corner, that, last) || parts(that, last, point_, corner);
 }
 
 }  // namespace cellocut

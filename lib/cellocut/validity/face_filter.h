@@ -24,6 +24,8 @@ class PreparedFace {
                                const std::array<Point3, 3>& others, int count) const;
   [[nodiscard]] bool beside_plane(const Point3& p, int& sides) const;
   [[nodiscard]] bool across_edge(int third, const Point3& p) const;
+  [[nodiscard]] bool across_any_side(int corner, const std::array<Point3, 3>& others,
+                                     int count) const;
 
   Triangle corners_;
   std::array<Point3, 3> point_;

@@ -5,8 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "cellocut/measure/nearest_triangle.h"
 #include "pipeline_runs.h"
 #include "support/defective_meshes.h"
 #include "support/soup_operations.h"
@@ -58,16 +58,12 @@ TEST_P(Invariance, ThreadsDoNotMatter) {
   }
 }
 
-// From the vertices of one to the vertices of the other, which bounds the distance of the surfaces
-// from above up to the sampling of the second.
+// From the vertices of one to the surface of the other.
 double directed_distance(const TriangleSoup& from, const TriangleSoup& to) {
+  const NearestTriangle surface(to);
   double largest = 0;
-  for (const Point3& p : from.points) {
-    double nearest = std::numeric_limits<double>::infinity();
-    for (const Point3& q : to.points) nearest = std::min(nearest, squared_norm(p - q));
-    largest = std::max(largest, nearest);
-  }
-  return std::sqrt(largest);
+  for (const Point3& p : from.points) largest = std::max(largest, surface(p).distance);
+  return largest;
 }
 
 void expect_hardly_changed(const TriangleSoup& soup, const RemeshOptions& options) {

@@ -7,7 +7,6 @@ namespace cellocut {
 
 namespace {
 
-constexpr std::uint32_t kNone = 0xFFFFFFFFU;
 // Cosine of the least angle between two sides that counts as a crease, 20 degrees.
 constexpr double kLeastAngle = 0.94;
 constexpr double kLongest = 2;     // way, in offsets
@@ -24,14 +23,15 @@ CreaseSlide::CreaseSlide(const TriangleSoup& surface, const std::vector<PullTarg
       input_(input),
       offset_(offset),
       distance_(distance),
-      partner_(targets.size(), kNone) {
+      facing_(targets.size()) {
   for (const Triangle& t : surface.triangles) {
     for (int k = 0; k < 3; ++k) consider(t[k], t[(k + 1) % 3]);
   }
 }
 
-// In a closed oriented surface every edge is seen from both of its ends. Of several partners the
-// one whose side is at the largest angle is taken.
+// In a closed oriented surface every edge is seen from both of its ends. (The sum of all that a
+// vertex has across creases, and not one of them: which is chosen among equals would be up to the
+// last bit.)
 void CreaseSlide::consider(std::uint32_t vertex, std::uint32_t other) {
   const Point3& a = targets_[vertex].direction;
   const Point3& b = targets_[other].direction;
@@ -39,14 +39,13 @@ void CreaseSlide::consider(std::uint32_t vertex, std::uint32_t other) {
   const double cosine = dot(a, b);
   if (cosine > kLeastAngle || cosine < -kLeastAngle) return;
   if (dot(surface_.points[other] - surface_.points[vertex], b - a) >= 0) return;  // convex
-  if (partner_[vertex] == kNone || cosine < dot(a, targets_[partner_[vertex]].direction)) {
-    partner_[vertex] = other;
-  }
+  facing_[vertex] = facing_[vertex] + b;
 }
 
 Point3 CreaseSlide::operator()(std::uint32_t vertex, const Point3& to) const {
-  if (partner_[vertex] == kNone) return to;
-  const Point3& facing = targets_[partner_[vertex]].direction;
+  const double sum = std::sqrt(squared_norm(facing_[vertex]));
+  if (!(sum > 0.5)) return to;  // not at a crease, or between sides that face each other
+  const Point3 facing = (1 / sum) * facing_[vertex];
   const double step = kStep * offset_;
   // The whole way first.
   constexpr int kMostSteps = static_cast<int>(kLongest / kStep);

@@ -49,7 +49,7 @@ class CreaseSlide {
   const NearestTriangle& input_;
   double offset_;
   double distance_;
-  std::vector<std::uint32_t> partner_;  // by vertex: one across the crease, or kNone
+  std::vector<Point3> facing_;  // by vertex: the sum of the directions across creases; 0: none
 };
 
 }  // namespace cellocut

@@ -149,8 +149,8 @@ Command add_render(CLI::App& program) {
   CLI::App* app = program.add_subcommand(
       "render",
       "Six canonical clay views of a mesh as PNG files, by ray casting: from +x, -x, +y, -y, +z, "
-      "-z "
-      "(posx.png, negx.png, ...). The camera looks at the centre of the mesh's bounding box, whose "
+      "-z (posx.png, negx.png, ...). The camera looks at the centre of the mesh's bounding box, "
+      "whose "
       "longest edge fills the picture but for a margin of 5 % on either side; lights and material "
       "are the same for every mesh. The back of a face is red, so that holes, sheets and flipped "
       "faces show");

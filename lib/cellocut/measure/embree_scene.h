@@ -36,13 +36,13 @@ inline double embree_slack(const Point3& p) {
 }
 
 // The bounds of a thing within `box` (of the frame), with room for rounding.
-inline void set_embree_bounds(RTCBounds& bounds, const Box3& box) {
-  bounds.lower_x = static_cast<float>(box.low[0] - kEmbreeRounding);
-  bounds.lower_y = static_cast<float>(box.low[1] - kEmbreeRounding);
-  bounds.lower_z = static_cast<float>(box.low[2] - kEmbreeRounding);
-  bounds.upper_x = static_cast<float>(box.high[0] + kEmbreeRounding);
-  bounds.upper_y = static_cast<float>(box.high[1] + kEmbreeRounding);
-  bounds.upper_z = static_cast<float>(box.high[2] + kEmbreeRounding);
+inline void set_embree_bounds(RTCBounds& bounds, const Box3& box, double margin = kEmbreeRounding) {
+  bounds.lower_x = static_cast<float>(box.low[0] - margin);
+  bounds.lower_y = static_cast<float>(box.low[1] - margin);
+  bounds.lower_z = static_cast<float>(box.low[2] - margin);
+  bounds.upper_x = static_cast<float>(box.high[0] + margin);
+  bounds.upper_y = static_cast<float>(box.high[1] + margin);
+  bounds.upper_z = static_cast<float>(box.high[2] + margin);
 }
 
 class EmbreeScene {

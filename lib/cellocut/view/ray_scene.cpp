@@ -9,6 +9,7 @@
 
 #include "cellocut/base/errors.h"
 #include "cellocut/base/line_coverage.h"
+#include "cellocut/measure/embree_scene.h"
 #include "cellocut/measure/sampling.h"
 
 namespace cellocut {
@@ -141,14 +142,7 @@ void RayScene::Scene::bounds(const RTCBoundsFunctionArguments* a) {
   Box3 box{self.points[t[0]], self.points[t[0]]};
   box.include(self.points[t[1]]);
   box.include(self.points[t[2]]);
-  const double margin = self.margin();
-  RTCBounds& bounds = *a->bounds_o;
-  bounds.lower_x = static_cast<float>(box.low[0] - margin);
-  bounds.lower_y = static_cast<float>(box.low[1] - margin);
-  bounds.lower_z = static_cast<float>(box.low[2] - margin);
-  bounds.upper_x = static_cast<float>(box.high[0] + margin);
-  bounds.upper_y = static_cast<float>(box.high[1] + margin);
-  bounds.upper_z = static_cast<float>(box.high[2] + margin);
+  set_embree_bounds(*a->bounds_o, box, self.margin());
 }
 
 void RayScene::Scene::intersect(const RTCIntersectFunctionNArguments* a) {

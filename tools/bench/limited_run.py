@@ -39,9 +39,10 @@ def kill_group(process):
 
 
 def run_limited(arguments, seconds, memory_bytes, log, cwd=None):
-    """Dictionary with status (done, timeout, memory, missing), exit_code (negative: a signal), seconds,
-    peak_memory_bytes. Standard output and error go to the file `log`. The limit of memory holds for the whole
-    process group: its resident memory is sampled, and the kernel's high-water mark of the largest decides after."""
+    """Dictionary with status (done, timeout, memory, missing), exit_code (negative: a signal), seconds, cpu_seconds
+    (of the command and what it waited for; a busy machine changes them little), peak_memory_bytes. Standard output
+    and error go to the file `log`. The limit of memory holds for the whole process group: its resident memory is
+    sampled, and the kernel's high-water mark of the largest decides after."""
     start = time.monotonic()
     with open(log, "wb") as output:
         try:
@@ -50,7 +51,8 @@ def run_limited(arguments, seconds, memory_bytes, log, cwd=None):
                 start_new_session=True, preexec_fn=die_with_parent)
         except OSError as error:
             output.write(f"{arguments[0]}: {error.strerror}\n".encode())
-            return {"status": "missing", "exit_code": None, "seconds": 0.0, "peak_memory_bytes": 0}
+            return {"status": "missing", "exit_code": None, "seconds": 0.0, "cpu_seconds": 0.0,
+                    "peak_memory_bytes": 0}
     status, peak = "done", 0
     try:
         while True:
@@ -74,4 +76,4 @@ def run_limited(arguments, seconds, memory_bytes, log, cwd=None):
     if status == "done" and peak > memory_bytes:
         status = "memory"
     return {"status": status, "exit_code": process.returncode, "seconds": time.monotonic() - start,
-            "peak_memory_bytes": peak}
+            "cpu_seconds": usage.ru_utime + usage.ru_stime, "peak_memory_bytes": peak}

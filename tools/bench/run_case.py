@@ -91,8 +91,9 @@ class Case:
         ran = run_limited(arguments, self.method.seconds, self.method.memory_gb * 1e9, log, cwd=self.scratch)
         if self.method.output:
             self.output = pathlib.Path(self.method.output.format(**places))
-        result = {"status": ran["status"], "reason": "", **{key: ran[key] for key in
-                  ("exit_code", "seconds", "peak_memory_bytes")}, "program_sha256": program_digest(arguments)}
+        taken = ("exit_code", "seconds", "cpu_seconds", "peak_memory_bytes")
+        result = {"status": ran["status"], "reason": "", **{key: ran[key] for key in taken},
+                  "program_sha256": program_digest(arguments)}
         if ran["status"] == "done":
             result["status"], result["reason"] = self.judge(ran["exit_code"], last_line(log))
         elif ran["status"] == "missing":
@@ -168,7 +169,7 @@ def run_case(case):
         result.update(case.run())
     else:
         result.update(status="unreadable", reason="there is no input", exit_code=None, seconds=0.0,
-                      peak_memory_bytes=0)
+                      cpu_seconds=0.0, peak_memory_bytes=0)
     if result["status"] == "ok":
         case.measure(result)
     if result["status"] == "ok":

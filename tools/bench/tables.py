@@ -42,7 +42,8 @@ def row_of(result):
     volume = check.get("volume")
     row = {"mesh": result["mesh"], "method": result["method"], "status": result["status"],
            "exit_code": result.get("exit_code"), "reason": result.get("reason", ""),
-           "seconds": result.get("seconds"), "peak_memory_gb": (result.get("peak_memory_bytes") or 0) / GIGABYTE,
+           "seconds": result.get("seconds"), "cpu_seconds": result.get("cpu_seconds"),
+           "peak_memory_gb": (result.get("peak_memory_bytes") or 0) / GIGABYTE,
            "valid": check.get("valid"), "triangles": check.get("triangles"), "components": check.get("components"),
            "volume": volume}
     row.update({key: check.get(key) for key in CHECKS})
@@ -143,9 +144,10 @@ class Tables:
             # A run that was stopped took its limit: leaving it out would reward time-outs.
             ran = [row for row in rows if row["status"] in ("ok", "failed", "timeout", "memory")]
             return [show(value, 3) for value in (median(ran, "seconds"), mean(ran, "seconds"), largest(ran, "seconds"),
+                                                 median(ran, "cpu_seconds"), largest(ran, "cpu_seconds"),
                                                  median(ran, "peak_memory_gb"), largest(ran, "peak_memory_gb"))]
-        return markdown(["Method", "seconds, median", "mean", "worst", "memory in GB, median", "worst"],
-                        self.each(columns))
+        return markdown(["Method", "seconds, median", "mean", "worst", "CPU seconds, median", "worst",
+                         "memory in GB, median", "worst"], self.each(columns))
 
     def robustness(self):
         def columns(rows):

@@ -38,8 +38,7 @@ Json surface_json(const RemeshResult& result, const RemeshOptions& options) {
     const LabellingDepartures& departures = result.departures;
     surface["departures"] = {{"solid_beyond_labelling_volume", departures.beyond},
                              {"left_out_volume", departures.left_out},
-                             {"pockets_closed", departures.pockets},
-                             {"pocket_volume", departures.pocket_volume}};
+                             {"closed_volume", departures.closed}};
   }
   if (options.pulls()) {
     const PullReport& pull = result.pull;

@@ -216,6 +216,33 @@ class Descent {
   tbb::enumerable_thread_specific<std::array<Workspace, 3>> workspaces_;
 };
 
+using CoordIterator = std::vector<openvdb::Coord>::iterator;
+
+// Splits the cube into eight as long as it holds a leaf; what holds none is a tile.
+void split(const openvdb::Coord& low, int edge, CoordIterator begin, CoordIterator end,
+           std::vector<Tile>& tiles) {
+  if (begin == end) {
+    tiles.push_back({low, edge});
+    return;
+  }
+  if (edge == kLeafEdge) return;
+  const int half = edge / 2;
+  CoordIterator from = begin;
+  for (int k = 0; k < 8; ++k) {
+    const openvdb::Coord child =
+        low.offsetBy((k & 1) * half, ((k >> 1) & 1) * half, (k >> 2) * half);
+    const auto within = [&](const openvdb::Coord& leaf) {
+      for (int axis = 0; axis < 3; ++axis) {
+        if (leaf[axis] < child[axis] || leaf[axis] >= child[axis] + half) return false;
+      }
+      return true;
+    };
+    const CoordIterator to = std::partition(from, end, within);
+    split(child, half, from, to, tiles);
+    from = to;
+  }
+}
+
 }  // namespace
 
 Band find_band(const std::vector<DistanceTriangle>& triangles, int extent, double offset,
@@ -223,6 +250,14 @@ Band find_band(const std::vector<DistanceTriangle>& triangles, int extent, doubl
   Descent descent(triangles, offset, observer);
   descent.run(extent);
   return descent.take();
+}
+
+std::vector<Tile> tiles_between(std::vector<openvdb::Coord> leaves, int extent) {
+  int edge = kLeafEdge;
+  while (edge < extent) edge *= 2;
+  std::vector<Tile> tiles;
+  split(openvdb::Coord(0, 0, 0), edge, leaves.begin(), leaves.end(), tiles);
+  return tiles;
 }
 
 void add_inside_tile(FieldTree& tree, const Tile& tile) {

@@ -30,6 +30,10 @@ struct Band {
 Band find_band(const std::vector<DistanceTriangle>& triangles, int extent, double offset,
                Observer& observer);
 
+// The cubes between the leaves that begin at `leaves`: together they cover [0, 2^k)^3, 2^k >=
+// extent. O(leaves * k).
+std::vector<Tile> tiles_between(std::vector<openvdb::Coord> leaves, int extent);
+
 // Sets the tile's grid points to an inactive -kBand.
 void add_inside_tile(FieldTree& tree, const Tile& tile);
 

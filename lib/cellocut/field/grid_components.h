@@ -16,10 +16,6 @@
 
 namespace cellocut {
 
-// The cubes between the leaves that begin at `leaves`: together they cover [0, 2^k)^3, 2^k >=
-// extent. O(leaves * k).
-std::vector<Tile> tiles_between(std::vector<openvdb::Coord> leaves, int extent);
-
 class GridComponents {
  public:
   static constexpr std::uint32_t kNone = 0xFFFFFFFFU;

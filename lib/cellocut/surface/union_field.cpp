@@ -8,7 +8,7 @@
 #include <numeric>
 
 #include "cellocut/field/band.h"
-#include "cellocut/field/grid_components.h"
+#include "cellocut/field/leaf_walk.h"
 #include "cellocut/field/line_crossings.h"
 #include "cellocut/surface/interface.h"
 
@@ -67,6 +67,8 @@ std::vector<openvdb::Coord> merge_blocks(const FieldTree& phi,
   return blocks;
 }
 
+constexpr float kLargestStored = kBand - 0x1p-15F;
+
 void store(FieldLeaf& leaf, std::uint32_t offset, float value) {
   if (std::fabs(value) < kBand) {
     leaf.setValueOn(offset, value);
@@ -121,58 +123,54 @@ constexpr std::int64_t points_of(const Tile& tile) {
   return std::int64_t{tile.edge} * tile.edge * tile.edge;
 }
 
-// The parts outside against the cells.
-struct Comparison {
-  std::vector<std::uint8_t> open;  // by component: holds a point that is in no interior cell
-  std::int64_t beyond = 0;         // points of the solid in no interior cell
-  std::int64_t left_out = 0;       // points outside in an interior cell
+// Adds blocks where the tile, which is outside, meets cells of the region: there its points are not
+// all alike. What meets none stays a tile.
+void split_tile(const Tile& tile, const CellRegion& region, Blocks& blocks) {
+  if (region.count(tile) == 0) return;
+  if (tile.edge == kLeafEdge) {
+    blocks.low.push_back(tile.low);
+    blocks.leaves.push_back(std::make_unique<FieldLeaf>(tile.low, kBand, false));
+    return;
+  }
+  const int half = tile.edge / 2;
+  for (int k = 0; k < 8; ++k) {
+    const openvdb::Coord low =
+        tile.low.offsetBy((k >> 2) * half, ((k >> 1) & 1) * half, (k & 1) * half);
+    split_tile({low, half}, region, blocks);
+  }
+}
+
+// The points of the blocks that are not solid, beyond the interior cells and in them.
+struct OutsidePoints {
+  std::vector<LeafMask> beyond_cells;
+  std::vector<LeafMask> in_cells;
+  std::int64_t solid_beyond_cells = 0;
 };
 
-Comparison compare_with_cells(const Blocks& blocks, const GridComponents& outside,
-                              const CellRegion& interior) {
-  struct Counts {
-    std::int64_t beyond = 0;
-    std::int64_t left_out = 0;
-    std::vector<std::uint32_t> open;
-  };
-  std::vector<Counts> counts(blocks.low.size());
+OutsidePoints find_outside(const Blocks& blocks, const CellRegion& interior) {
+  OutsidePoints outside;
+  outside.beyond_cells.resize(blocks.low.size());
+  outside.in_cells.resize(blocks.low.size());
+  std::vector<std::int64_t> solid(blocks.low.size(), 0);
   tbb::parallel_for(std::size_t{0}, blocks.low.size(), [&](std::size_t block) {
-    Counts& count = counts[block];
     for (std::uint32_t n = 0; n < FieldLeaf::SIZE; ++n) {
       const bool in_cell = interior.contains(blocks.low[block] + FieldLeaf::offsetToLocalCoord(n));
-      const std::uint32_t component = outside.of_point(block, n);
-      if (component == GridComponents::kNone) {
-        count.beyond += in_cell ? 0 : 1;
-      } else if (in_cell) {
-        ++count.left_out;
-      } else if (count.open.empty() || count.open.back() != component) {
-        count.open.push_back(component);
+      if (blocks.leaves[block]->getValue(n) > 0) {
+        LeafMask& mask = (in_cell ? outside.in_cells : outside.beyond_cells)[block];
+        add_point(mask, n);
+      } else if (!in_cell) {
+        ++solid[block];
       }
     }
   });
-  const std::vector<Tile>& tiles = outside.tiles();
-  std::vector<std::int64_t> in_cells(tiles.size());
-  tbb::parallel_for(std::size_t{0}, tiles.size(),
-                    [&](std::size_t n) { in_cells[n] = interior.count(tiles[n]); });
-
-  Comparison result;
-  result.open.assign(outside.node_count(), 0);
-  for (const Counts& count : counts) {
-    result.beyond += count.beyond;
-    result.left_out += count.left_out;
-    for (const std::uint32_t component : count.open) result.open[component] = 1;
-  }
-  for (std::size_t n = 0; n < tiles.size(); ++n) {
-    const std::uint32_t component = outside.of_tile(n);
-    if (component == GridComponents::kNone) {
-      result.beyond += points_of(tiles[n]) - in_cells[n];
-    } else {
-      result.left_out += in_cells[n];
-      if (in_cells[n] < points_of(tiles[n])) result.open[component] = 1;
-    }
-  }
-  return result;
+  outside.solid_beyond_cells = std::accumulate(solid.begin(), solid.end(), std::int64_t{0});
+  return outside;
 }
+
+// How far, in grid steps, a point outside may lie within the interior cells: what the facets of the
+// decimated proxy cut off the slab's outside. With three or more no closed point comes next to
+// a tile that is outside, not even across a corner.
+constexpr int kOpenSteps = 4;
 
 }  // namespace
 
@@ -185,48 +183,45 @@ UnionField compute_union_field(const SparseField& phi, const TetComplex& complex
   Blocks blocks = combine(phi_tree, absorbed, frame, observer);
 
   // Between the blocks neither field changes its sign.
-  const auto is_solid = [&](const Tile& tile) {
-    return phi_tree.getValue(tile.low) < 0 || absorbed.contains(tile.low);
-  };
-  GridComponents outside(blocks.low, tiles_between(blocks.low, frame.extent));
-  outside.join(
-      [&](std::size_t n, std::uint32_t offset) { return blocks.leaves[n]->getValue(offset) > 0; },
-      [&](const Tile& tile) { return !is_solid(tile); },
-      [](const openvdb::Coord&, int) { return true; }, observer);
-  const Comparison cells = compare_with_cells(blocks, outside, interior);
-  const auto is_pocket = [&](std::uint32_t component) {
-    return component != GridComponents::kNone && cells.open[component] == 0;
-  };
+  auto grid = std::make_shared<SparseField::Grid>();
+  std::int64_t beyond = 0;
+  for (const Tile& tile : tiles_between(blocks.low, frame.extent)) {
+    if (phi_tree.getValue(tile.low) < 0 || absorbed.contains(tile.low)) {
+      add_inside_tile(grid->tree, tile);
+      beyond += points_of(tile) - interior.count(tile);
+    } else {
+      split_tile(tile, interior, blocks);
+    }
+  }
+  observer.check();
 
-  // Close the pockets.
+  const OutsidePoints outside = find_outside(blocks, interior);
+  std::vector<LeafMask> open = outside.beyond_cells;
+  walk_leaves(blocks.low, grid->tree, outside.in_cells, kOpenSteps, open, observer);
+  std::vector<std::int64_t> left_out(blocks.low.size(), 0);
   std::vector<std::int64_t> closed(blocks.low.size(), 0);
   tbb::parallel_for(std::size_t{0}, blocks.low.size(), [&](std::size_t block) {
     FieldLeaf& leaf = *blocks.leaves[block];
     for (std::uint32_t n = 0; n < FieldLeaf::SIZE; ++n) {
-      if (!is_pocket(outside.of_point(block, n))) continue;
-      store(leaf, n, -leaf.getValue(n));
-      ++closed[block];
+      if (!has_point(outside.in_cells[block], n)) continue;
+      const bool stays = has_point(open[block], n);
+      ++(stays ? left_out : closed)[block];
+      // Stored even beyond the band: what stays and what does not may be neighbours there.
+      const float value = std::min(leaf.getValue(n), kLargestStored);
+      store(leaf, n, stays ? value : -value);
     }
   });
-  std::int64_t pocket_points = std::accumulate(closed.begin(), closed.end(), std::int64_t{0});
-  auto grid = std::make_shared<SparseField::Grid>();
-  for (std::size_t n = 0; n < outside.tiles().size(); ++n) {
-    const Tile& tile = outside.tiles()[n];
-    const bool pocket = is_pocket(outside.of_tile(n));
-    if (pocket) pocket_points += points_of(tile);
-    if (pocket || is_solid(tile)) add_inside_tile(grid->tree, tile);
-  }
   for (LeafPointer& leaf : blocks.leaves) grid->tree.addLeaf(leaf.release());
 
+  const auto sum = [](const std::vector<std::int64_t>& counts) {
+    return static_cast<double>(std::accumulate(counts.begin(), counts.end(), std::int64_t{0}));
+  };
   UnionField result;
   result.field = SparseField(std::move(grid));
   const double volume = frame.spacing * frame.spacing * frame.spacing;
-  result.departures.beyond = static_cast<double>(cells.beyond) * volume;
-  result.departures.left_out = static_cast<double>(cells.left_out - pocket_points) * volume;
-  result.departures.pocket_volume = static_cast<double>(pocket_points) * volume;
-  for (std::uint32_t node = 0; node < outside.node_count(); ++node) {
-    if (outside.names_component(node) && is_pocket(node)) ++result.departures.pockets;
-  }
+  result.departures.beyond = static_cast<double>(beyond + outside.solid_beyond_cells) * volume;
+  result.departures.left_out = sum(left_out) * volume;
+  result.departures.closed = sum(closed) * volume;
   return result;
 }
 

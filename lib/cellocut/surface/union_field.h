@@ -14,13 +14,11 @@ namespace cellocut {
 struct LabellingDepartures {
   double beyond = 0;    // solid in exterior cells: all of it in the slab phi < 0
   double left_out = 0;  // not solid in interior cells: all of them with L* interior
-  // Of these were closed, being enclosed by the slab and absorbed cells.
-  std::int64_t pockets = 0;
-  double pocket_volume = 0;
+  double closed = 0;    // neither in the slab nor absorbed, but made solid: in interior cells
 };
 
 struct UnionField {
-  SparseField field;  // negative inside, in grid steps; 1-Lipschitz in its band
+  SparseField field;  // negative inside, in grid steps; 1-Lipschitz where none is closed
   LabellingDepartures departures;
 };
 
@@ -28,13 +26,15 @@ struct UnionField {
 // exterior that the cut made interior. A grid point is absorbed iff it lies in such a cell: decided
 // by the parity of the crossings of a grid line with the region's boundary, by exact predicates.
 //
-// What is neither in the slab nor absorbed is outside, and falls into components of grid points.
-// One stays open iff it holds a point beyond the hull or in an exterior cell; the others are
-// pockets between the slab and absorbed cells, in cells with L* interior alone, and are made
-// inside.
+// What is neither in the slab nor absorbed is outside. In interior cells (with L* interior, then) a
+// point stays outside iff a path of at most four grid steps through points outside leads from it to
+// one in no interior cell; the others are made inside. So what the facets of the decimated proxy
+// cut off stays as phi has it, and pockets between the slab and absorbed cells are closed, with
+// slots that the slab all but fills: the labelling has them filled, and phi would leave them in
+// tatters.
 //
-// `phi` is the thickening field in grid steps. O(stored values + tiles' faces + crossings log
-// crossings); the same bits for any number of threads. Errors: Cancelled.
+// `phi` is the thickening field in grid steps. O(stored values + crossings log crossings); the same
+// bits for any number of threads. Errors: Cancelled.
 UnionField compute_union_field(const SparseField& phi, const TetComplex& complex,
                                const CellLabels& initial, const CellLabels& label,
                                const Frame& frame, Observer& observer);

@@ -28,5 +28,6 @@ Command add_bench(CLI::App& program);
 Command add_scan(CLI::App& program);
 Command add_damage(CLI::App& program);
 Command add_render(CLI::App& program);
+Command add_path(CLI::App& program);
 
 }  // namespace cellocut::tools

@@ -22,7 +22,7 @@ int run_program(int argc, char** argv) {
   std::vector<Command> commands{add_remesh(program), add_compare(program),  add_solve(program),
                                 add_check(program),  add_evaluate(program), add_scan(program),
                                 add_damage(program), add_render(program),   add_list(program),
-                                add_bench(program)};
+                                add_bench(program),  add_path(program)};
 #ifdef CELLOCUT_WITH_VIZ
   commands.push_back(add_section(program));
 #endif

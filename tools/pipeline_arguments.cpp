@@ -4,7 +4,7 @@
 
 namespace cellocut::tools {
 
-void PipelineArguments::add_to(CLI::App& app) {
+void PipelineArguments::add_to(CLI::App& app, bool with_lambda) {
   app.add_option("-R,--resolution", options.resolution,
                  "Grid steps along the longest edge of the box, 8 to 16384")
       ->capture_default_str();
@@ -16,9 +16,11 @@ void PipelineArguments::add_to(CLI::App& app) {
       ->excludes(epsilon);
   app.add_option("--decimate", options.decimate, "Share of the proxy's faces to remove, 0 to 0.99")
       ->capture_default_str();
-  app.add_option("--lambda-fill", lambda,
-                 "Weight of an unsupported interface: a number or p/q, terms up to 2^20")
-      ->capture_default_str();
+  if (with_lambda) {
+    app.add_option("--lambda-fill", lambda,
+                   "Weight of an unsupported interface: a number or p/q, terms up to 2^20")
+        ->capture_default_str();
+  }
   app.add_option("--exterior", exterior,
                  "What is fixed exterior: the unbounded region, or every hull cell that is not "
                  "initially interior")

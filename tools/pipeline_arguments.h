@@ -18,7 +18,8 @@ struct PipelineArguments {
   bool no_thickening = false;
   bool no_unary = false;
 
-  void add_to(CLI::App& app);
+  // Without --lambda-fill where all are asked for.
+  void add_to(CLI::App& app, bool with_lambda = true);
   // Turns the texts into options. Errors: UsageError that names the option.
   void complete();
 };

@@ -1,0 +1,46 @@
+// The fill path of a tetrahedral complex: which cells are interior in which labelling.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "cellocut/complex/tet_complex.h"
+#include "cellocut/energy/cell_graph.h"
+#include "cellocut/path/fill_path.h"
+
+namespace cellocut {
+
+// `graph`: of the same facets, areas and labels, at any lambda; it says which cells have a node.
+// Precondition: where L* is interior the cell is anchored (else supported facets would lie between
+// free cells, and minima would not be nested). O(facets).
+ParametricProblem make_parametric_problem(const CellGraph& graph, const FacetList& facets,
+                                          const FacetAreas& areas, const CellLabels& initial);
+
+struct CellPath {
+  FillPath path;
+  // Per cell as FillPath::level per node; cells that are interior in every minimum have the
+  // highest.
+  std::vector<std::uint32_t> level;
+  std::vector<Wide> facet_flow;  // FillPath::zone_flow, per facet
+
+  [[nodiscard]] std::size_t count() const { return path.areas.size(); }
+  // Labelling k.
+  [[nodiscard]] CellLabels labels(std::size_t k) const;
+};
+
+// Errors: as find_fill_path().
+CellPath find_cell_path(const CellGraph& graph, const FacetList& facets, const FacetAreas& areas,
+                        const CellLabels& initial, const Lambda& first, const Lambda& last,
+                        CutSolver& solver, Observer& observer);
+
+// The solid of a labelling.
+struct PathSolid {
+  double volume = 0;            // of the interior cells, cubed input units
+  std::int64_t cells = 0;       // interior
+  std::int64_t components = 0;  // of interior cells, joined through facets
+};
+// By labelling. O(cells), up to the inverse of Ackermann's function: each labelling adds cells to
+// the one after it.
+std::vector<PathSolid> path_solids(const TetComplex& complex, const CellPath& path);
+
+}  // namespace cellocut

@@ -1,0 +1,61 @@
+// Every labelling that is a minimum for some lambda_fill.
+//
+// As a function of lambda the least cost is the lower envelope of finitely many lines, one for each
+// pair of supported and unsupported area that a minimum can have. The path is found by recursion on
+// the envelope (Eisner and Severance, J. ACM 23, 1976): where the lines that are minimal next to
+// both ends of a range are not the same, solve where they cross; either none is below, and the
+// crossing is a breakpoint, or what is below divides the range. Minimum cuts are nested
+// (parametric_problem.h), so each solve concerns only the nodes in which the ends of its range
+// differ. Everything is exact: breakpoints are fractions, capacities are multiplied out.
+//
+// Where minima tie, the two canonical ones at a breakpoint are those of its sides: the largest
+// minimum there is the largest on the interval before it, the smallest the smallest on the one
+// after it.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "cellocut/base/observer.h"
+#include "cellocut/cut/cut_solver.h"
+#include "cellocut/path/parametric_problem.h"
+
+namespace cellocut {
+
+struct FillPath {
+  Lambda first;  // the range
+  Lambda last;
+  // Labelling k is minimal from breakpoint k - 1 to breakpoint k (ends of the range beyond), and in
+  // the open interval between them the largest minimum. Ascending in lambda: areas of supported
+  // interface rise, those of unsupported fall, and each labelling holds the next.
+  std::vector<InterfaceAreas> areas;
+  std::vector<Lambda> breakpoints;  // one less
+  // Per node: in how many labellings it is on the source side; in the first ones, as they are
+  // nested.
+  std::vector<std::uint32_t> level;
+  // The proof. Nodes of one level are a zone; that of level k < areas.size() changes sides at
+  // breakpoint k - 1, that of level 0 is a sink side before `first`, that of the highest a source
+  // side beyond `last`. Per edge within a zone: net flow, at the lambda of that breakpoint or end,
+  // in units of q supported + p unsupported. Edges between zones are saturated away from the higher
+  // level, and have 0 here.
+  std::vector<Wide> zone_flow;
+  // Figures of the search.
+  int solves = 0;                 // problems solved
+  int digits = 0;                 // calls of the solver
+  std::int64_t solved_nodes = 0;  // nodes of all problems
+};
+
+// The whole path over [first, last]. Deterministic for every exact solver, and the same for all.
+// Preconditions: first < last; areas sum to at most 2^50. Errors: as solve_wide().
+FillPath find_fill_path(const ParametricProblem& problem, const Lambda& first, const Lambda& last,
+                        CutSolver& solver, Observer& observer);
+
+// Whether labelling k has the node on its source side.
+inline bool holds(const FillPath& path, std::size_t k, std::size_t node) {
+  return path.level[node] > k;
+}
+// The labelling that is the largest minimum at lambda: at a breakpoint that of the smaller lambda.
+// Precondition: lambda within the range.
+std::size_t labelling_at(const FillPath& path, const Lambda& lambda);
+
+}  // namespace cellocut

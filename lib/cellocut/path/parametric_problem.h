@@ -1,0 +1,70 @@
+// The cut problem of a remesh as a function of lambda_fill.
+//
+// With lambda = p / q a facet of area a costs q a where it is supported and p a where it is not, so
+// a labelling costs q A_s + p A_u: a line in lambda. Only arcs from the source are supported
+// (facets between anchored and free cells); all others are not. In units of 1 / lambda just the
+// arcs from the source depend on lambda, and all of them fall as it grows: the monotone parametric
+// problem of Gallo, Grigoriadis and Tarjan (SIAM J. Comput. 18, 1989), whose minimum cuts are
+// nested.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "cellocut/cut/cut_problem.h"
+#include "cellocut/path/wide_cut.h"
+
+namespace cellocut {
+
+// lambda = p / q in lowest terms, both positive.
+struct Lambda {
+  std::int64_t p = 1;
+  std::int64_t q = 1;
+};
+bool operator<(const Lambda& a, const Lambda& b);
+bool operator==(const Lambda& a, const Lambda& b);
+double to_double(const Lambda& lambda);
+
+// What a labelling costs, in quanta of area: at lambda = p / q it is q supported + p unsupported.
+struct InterfaceAreas {
+  std::int64_t supported = 0;
+  std::int64_t unsupported = 0;
+  bool operator==(const InterfaceAreas&) const = default;
+};
+Wide cost_at(const InterfaceAreas& areas, const Lambda& lambda);
+// Where two lines meet. Precondition: a has more unsupported and less supported area than b.
+Lambda crossing(const InterfaceAreas& a, const InterfaceAreas& b);
+
+struct ParametricProblem {
+  struct Edge {
+    std::uint32_t from;
+    std::uint32_t to;
+    std::int64_t area;
+  };
+  // Areas per node.
+  std::vector<std::int64_t> supported;           // to the source
+  std::vector<std::int64_t> unsupported_source;  // to the source too: to what is always inside
+  std::vector<std::int64_t> unsupported_sink;
+  std::vector<Edge> edges;
+  InterfaceAreas constant;
+
+  [[nodiscard]] std::size_t node_count() const { return supported.size(); }
+};
+
+// Areas of a labelling, 1 on the source side. O(nodes + edges).
+InterfaceAreas areas_of(const ParametricProblem& problem, const CutLabels& source_side);
+
+// The problem at one lambda; its nodes and edges are those of `problem`. O(nodes + edges).
+WideProblem at_lambda(const ParametricProblem& problem, const Lambda& lambda);
+
+// A part of a problem: what lies between two nested labellings, with the rest in the terminals.
+struct Piece {
+  ParametricProblem problem;
+  std::vector<std::uint32_t> node;  // of the whole problem, per node of the piece
+  std::vector<std::uint32_t> edge;  // likewise
+};
+// The nodes of `upper` that are not in `lower`. Areas of a labelling of the new piece are those of
+// the same labelling of the whole. Precondition: lower is a subset of upper. O(nodes + edges).
+Piece contract(const Piece& piece, const CutLabels& lower, const CutLabels& upper);
+
+}  // namespace cellocut

@@ -1,0 +1,53 @@
+// A proof that each labelling of a fill path is a minimum on its whole interval of lambda.
+//
+// Notation. Cells of one level are a zone. Level k + 1 is what labelling k holds and labelling k +
+// 1 does not, and belongs to the breakpoint between them; level 0 belongs to the beginning of the
+// range, the highest to its end. In units of 1 / lambda a facet costs its area where it is
+// unsupported and mu = 1 / lambda times that where it is supported; let mu_z be that of a zone's
+// breakpoint or end.
+//
+// The proof is a flow g of the free cells, each zone's part at the mu_z of that zone, with the
+// facets between two zones saturated away from the higher level. Let it obey the capacities and be
+// conserved; let each cell of a zone between draw mu_z s from the anchors, s being its supported
+// area, and saturate its facets to exterior anchors; let cells of the highest level draw no more
+// than that, and those of level 0 exactly that, and give any rest to the outside. Take a lambda of
+// the range and any labelling with interior X. What X draws leaves through its boundary, so
+//   A_u(X) >= sum over X of what is drawn, and
+//   A_u(X) + mu A_s(X) >= mu S + sum over zones z of (mu_z - mu) s(X in z)
+// up to the highest level, whose cells draw at most mu_end <= mu times their area. The right side
+// is least where X holds the zones with mu_z < mu and not those with mu_z > mu, and there, as
+// facets between zones are saturated, both sides are equal. So one flow proves every labelling at
+// every lambda of the range. (A breakpoint lies in two intervals: both neighbours cost the same
+// there, which is checked as well.)
+//
+// Areas, levels and flows are checked on the complex itself. With the solvers and the contraction
+// of anchored cells this shares nothing; quantised areas are those of energy.h.
+#pragma once
+
+#include "cellocut/complex/tet_complex.h"
+#include "cellocut/energy/certificate.h"
+#include "cellocut/path/cell_path.h"
+
+namespace cellocut {
+
+struct PathClaim {
+  const TetComplex& complex;
+  const CellLabels& initial;           // L*
+  const std::vector<Anchor>& anchors;  // per cell
+  double unit;                         // length of one relative unit, in input units
+  int area_bits;
+  const CellPath& path;
+};
+
+// Checks, in this order, each reported by name:
+//   sizes         arrays match the complex
+//   anchors       cells that are fixed keep their label in every labelling
+//   areas         of each labelling, recomputed
+//   breakpoints   ascending within the range; both neighbours cost the same there
+//   capacities    |flow| <= capacity within each zone
+//   conservation  what each free cell draws and passes on, as above
+// Never throws for a wrong claim; a later check is not passed where an earlier one makes it
+// meaningless. O(cells + labellings).
+CertificateReport check_path(const PathClaim& claim);
+
+}  // namespace cellocut

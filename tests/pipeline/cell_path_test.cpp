@@ -1,0 +1,172 @@
+// The fill path of whole models: against independent cuts, and its certificate against corruption.
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <random>
+
+#include "cellocut/path/path_certificate.h"
+#include "pipeline_runs.h"
+#include "support/defective_meshes.h"
+
+namespace cellocut::testing {
+namespace {
+
+constexpr Lambda kFirst{1, 1};
+constexpr Lambda kLast{1000, 1};
+
+struct Case {
+  std::string name;
+  TriangleSoup soup;
+  ExteriorMode exterior = ExteriorMode::unbounded;
+};
+std::ostream& operator<<(std::ostream& out, const Case& c) { return out << c.name; }
+
+std::vector<Case> cases() {
+  return {{"bowl", test::open_bowl()},
+          {"bowl_hull_cells", test::open_bowl(), ExteriorMode::hull_cells},
+          {"sphere_with_hole", test::sphere_with_hole()},
+          {"crossing_boxes_hull_cells", test::two_crossing_boxes(), ExteriorMode::hull_cells},
+          {"moebius", test::moebius_strip()}};
+}
+
+class CellPaths : public ::testing::TestWithParam<Case> {
+ protected:
+  CellPaths() : options_(at_resolution(64)) {
+    options_.exterior = GetParam().exterior;
+    options_.lambda_fill = {1, 1};
+    result_ = pose_cut(GetParam().soup, options_, *backends::make("cgal"));
+    path_ = find_cell_path(result_.graph, result_.facets, result_.areas, result_.initial_label,
+                           kFirst, kLast, *solvers::make("bk"), silent_observer());
+  }
+
+  [[nodiscard]] CertificateReport check(const CellPath& path) const {
+    return check_path({.complex = result_.complex,
+                       .initial = result_.initial_label,
+                       .anchors = result_.anchors,
+                       .unit = result_.frame.unit,
+                       .area_bits = options_.area_bits,
+                       .path = path});
+  }
+
+  RemeshOptions options_;
+  RemeshResult result_;
+  CellPath path_;
+};
+
+TEST_P(CellPaths, AgreeWithCutsAtRandomLambdas) {
+  std::mt19937_64 random(5);
+  ASSERT_GE(path_.count(), 2U);
+  for (int n = 0; n < 20; ++n) {
+    const double exponent = static_cast<double>(random() % 1'000'000) / 1e6;
+    const auto numerator = static_cast<std::int64_t>(std::pow(1000.0, exponent) * 1000);
+    const Lambda lambda{numerator, 1000};
+    RemeshOptions options = options_;
+    options.lambda_fill = {lambda.p, lambda.q};
+    RemeshResult single = pose_cut(GetParam().soup, options, *backends::make("cgal"));
+    minimise_cut(single, options, *solvers::make("ibfs"));
+    const std::size_t k = labelling_at(path_.path, lambda);
+    EXPECT_TRUE(cost_at(path_.path.areas[k], lambda) == Wide{single.cut.value})
+        << "lambda " << to_double(lambda);
+    EXPECT_EQ(path_.labels(k), single.largest_interior) << "lambda " << to_double(lambda);
+  }
+}
+
+TEST_P(CellPaths, AreTheSameForEveryExactSolver) {
+  for (const char* name : {"ibfs", "push_relabel"}) {
+    const CellPath other =
+        find_cell_path(result_.graph, result_.facets, result_.areas, result_.initial_label, kFirst,
+                       kLast, *solvers::make(name), silent_observer());
+    EXPECT_EQ(other.level, path_.level);
+    EXPECT_EQ(other.path.areas, path_.path.areas);
+    EXPECT_TRUE(other.path.breakpoints == path_.path.breakpoints);
+    EXPECT_TRUE(check(other).valid);
+  }
+}
+
+TEST_P(CellPaths, HaveSolidsThatShrink) {
+  const std::vector<PathSolid> solids = path_solids(result_.complex, path_);
+  ASSERT_EQ(solids.size(), path_.count());
+  for (std::size_t k = 0; k < solids.size(); k += 7) {
+    const CellLabels labels = path_.labels(k);
+    double volume = 0;
+    std::int64_t cells = 0;
+    std::int64_t components = 0;
+    std::vector<std::uint8_t> seen(labels.size(), 0);
+    for (std::uint32_t c = 0; c < labels.size(); ++c) {
+      if (labels[c] != kInterior) continue;
+      volume += cell_volume(result_.complex, c);
+      ++cells;
+      if (seen[c] != 0) continue;
+      ++components;
+      std::vector<std::uint32_t> stack{c};
+      seen[c] = 1;
+      while (!stack.empty()) {
+        const std::uint32_t here = stack.back();
+        stack.pop_back();
+        for (const std::int32_t other : result_.complex.neighbours[here]) {
+          if (other == kOutside || seen[other] != 0 || labels[other] != kInterior) continue;
+          seen[other] = 1;
+          stack.push_back(static_cast<std::uint32_t>(other));
+        }
+      }
+    }
+    EXPECT_NEAR(solids[k].volume, volume, 1e-9 * volume);
+    EXPECT_EQ(solids[k].cells, cells);
+    EXPECT_EQ(solids[k].components, components);
+    if (k > 0) {
+      EXPECT_LT(solids[k].cells, solids[k - 1].cells);
+    }
+  }
+}
+
+TEST_P(CellPaths, HaveACertificateThatRefusesWhatIsWrong) {
+  const CertificateReport report = check(path_);
+  for (const CertificateCheck& check : report.checks) {
+    EXPECT_TRUE(check.passed) << check.name << ": " << check.detail;
+  }
+  ASSERT_TRUE(report.valid);
+  const auto expect_refused = [&](const std::string& at,  // empty: any
+                                  const std::function<void(CellPath&)>& corrupt) {
+    CellPath wrong = path_;
+    corrupt(wrong);
+    const CertificateReport found = check(wrong);
+    EXPECT_FALSE(found.valid) << at;
+    for (const CertificateCheck& c : found.checks) {
+      if (c.passed) continue;
+      EXPECT_EQ(c.name, at.empty() ? c.name : at);
+      break;
+    }
+  };
+  // A free cell that changes sides within the path.
+  std::size_t cell = 0;
+  while (path_.level[cell] == 0 || path_.level[cell] == path_.count()) ++cell;
+  std::size_t anchored = 0;
+  while (result_.anchors[anchored] != Anchor::interior) ++anchored;
+  std::size_t carrying = 0;
+  while (path_.facet_flow[carrying] == 0) ++carrying;
+  expect_refused("sizes", [](CellPath& p) { p.level.pop_back(); });
+  expect_refused("sizes", [](CellPath& p) { p.path.breakpoints.pop_back(); });
+  expect_refused("anchors", [&](CellPath& p) { --p.level[anchored]; });
+  expect_refused("areas", [&](CellPath& p) { ++p.level[cell]; });
+  expect_refused("areas", [](CellPath& p) { ++p.path.areas[0].supported; });
+  expect_refused("breakpoints", [](CellPath& p) { ++p.path.breakpoints[0].p; });
+  expect_refused("breakpoints", [](CellPath& p) { p.path.first = p.path.breakpoints[0]; });
+  expect_refused("capacities", [&](CellPath& p) { p.facet_flow[carrying] <<= 60; });
+  expect_refused("conservation", [&](CellPath& p) { p.facet_flow[carrying] = 0; });
+  // A labelling that is left out: its zone joins the next one, with areas and crossing to match.
+  // (Whether capacities or balances tell first depends on the zones.)
+  if (path_.count() >= 3) {
+    expect_refused("", [](CellPath& p) {
+      for (std::uint32_t& level : p.level) level -= level >= 2 ? 1 : 0;
+      p.path.areas.erase(p.path.areas.begin() + 1);
+      p.path.breakpoints.erase(p.path.breakpoints.begin());
+      p.path.breakpoints[0] = crossing(p.path.areas[0], p.path.areas[1]);
+    });
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Pipeline, CellPaths, ::testing::ValuesIn(cases()),
+                         [](const ::testing::TestParamInfo<Case>& c) { return c.param.name; });
+
+}  // namespace
+}  // namespace cellocut::testing

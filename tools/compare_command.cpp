@@ -213,6 +213,9 @@ class Comparison {
 
 int run_compare(CompareArguments& a) {
   a.pipeline.complete();
+  if (a.pipeline.options.lambda_auto) {
+    throw UsageError("--lambda-fill auto: give a number, so that all solve the same problem");
+  }
   a.pipeline.options.validate();
   a.comparison.relaxation.crossover = !a.no_crossover;
   a.comparison.relaxation.validate();

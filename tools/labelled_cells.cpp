@@ -77,13 +77,13 @@ viz::LabelledCells labelled_cells(const RemeshResult& result, const RemeshOption
 
   const double energy_unit =
       result.frame.unit * result.frame.unit /
-      (result.areas.scale * static_cast<double>(options.lambda_fill.denominator));
+      (result.areas.scale * static_cast<double>(result.derived.lambda_fill.denominator));
   cells.fields = {
       {"cellocut_version", std::string(kCellocutVersion)},
       {"legend_label", std::string("0 interior, 1 exterior")},
       {"legend_anchored", std::string("0 free, 1 fixed interior, 2 fixed exterior")},
       {"solver", solver},
-      {"lambda_fill", to_string(options.lambda_fill)},
+      {"lambda_fill", to_string(result.derived.lambda_fill)},
       {"resolution", static_cast<std::int64_t>(options.resolution)},
       {"epsilon", result.derived.epsilon},
       {"unit", result.frame.unit},

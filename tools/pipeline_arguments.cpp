@@ -18,7 +18,8 @@ void PipelineArguments::add_to(CLI::App& app, bool with_lambda) {
       ->capture_default_str();
   if (with_lambda) {
     app.add_option("--lambda-fill", lambda,
-                   "Weight of an unsupported interface: a number or p/q, terms up to 2^20")
+                   "Weight of an unsupported interface: a number or p/q, terms up to 2^20; auto: "
+                   "chosen so that most of the input has the solid on one side alone")
         ->capture_default_str();
   }
   app.add_option("--exterior", exterior,
@@ -35,8 +36,9 @@ void PipelineArguments::add_to(CLI::App& app, bool with_lambda) {
 }
 
 void PipelineArguments::complete() {
+  options.lambda_auto = lambda == "auto";
   try {
-    options.lambda_fill = parse_rational(lambda);
+    if (!options.lambda_auto) options.lambda_fill = parse_rational(lambda);
   } catch (const UsageError& error) {
     throw UsageError(std::string("--lambda-fill: ") + error.what());
   }

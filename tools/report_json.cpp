@@ -88,7 +88,7 @@ Json parameters_json(const RemeshResult& result, const RemeshOptions& options) {
           {"grid_step", result.frame.spacing},
           {"unit", result.frame.unit},
           {"decimate", options.decimate},
-          {"lambda_fill", to_string(options.lambda_fill)},
+          {"lambda_fill", to_string(result.derived.lambda_fill)},
           {"exterior", options.exterior == ExteriorMode::unbounded ? "unbounded" : "hull-cells"},
           {"area_bits", options.area_bits},
           {"cut", options.cut == CutChoice::largest ? "largest" : "smallest"},
@@ -113,7 +113,7 @@ Json cut_json(const RemeshResult& result, const RemeshOptions& options, const Ru
   const double quantum = 1 / result.areas.scale;  // squared relative units
   const double unit_energy =
       quantum * result.frame.unit * result.frame.unit /
-      static_cast<double>(options.lambda_fill.denominator);  // squared input units
+      static_cast<double>(result.derived.lambda_fill.denominator);  // squared input units
   Json counters = Json::object();
   for (const auto& [name, value] : result.cut.counters) counters[name] = value;
   return {{"backend", facts.backend},
@@ -135,11 +135,34 @@ Json cut_json(const RemeshResult& result, const RemeshOptions& options, const Ru
           {"area_quantum", quantum},
           {"area_largest_error", result.areas.largest_error},
           {"area_total_error", result.areas.total_error},
-          {"lambda_num", options.lambda_fill.numerator},
-          {"lambda_den", options.lambda_fill.denominator},
+          {"lambda_num", result.derived.lambda_fill.numerator},
+          {"lambda_den", result.derived.lambda_fill.denominator},
           {"interior_cells", count_interior(result.label)},
           {"interior_cells_smallest", count_interior(result.smallest_interior)},
           {"interior_cells_largest", count_interior(result.largest_interior)}};
+}
+
+Json candidate_json(const FillCandidate& candidate) {
+  return {{"lambda_from", to_double(candidate.from)},
+          {"lambda_to", to_double(candidate.to)},
+          {"one_sided_area", candidate.sides.one_sided},
+          {"open_area", candidate.sides.open},
+          {"volume", candidate.volume}};
+}
+
+// Areas in squared relative units.
+Json fill_choice_json(const FillChoice& choice) {
+  Json report{{"lambda_fill", to_string(choice.lambda)},
+              {"labellings", choice.labellings},
+              {"chosen", candidate_json(choice.chosen)},
+              {"runner_up", nullptr},
+              {"margin", nullptr}};
+  if (choice.runner_up) {
+    report["runner_up"] = candidate_json(*choice.runner_up);
+    // How much less one-sided area it has, as a share.
+    report["margin"] = 1 - choice.runner_up->sides.one_sided / choice.chosen.sides.one_sided;
+  }
+  return report;
 }
 
 Json certificate_json(const CertificateReport& certificate) {
@@ -217,6 +240,7 @@ Json remesh_json(const RemeshResult& result, const RemeshOptions& options,
                       {"nodes_removed", result.graph.anchored_cells + result.graph.enclosed_cells},
                       {"cells_anchored", result.graph.anchored_cells},
                       {"cells_enclosed", result.graph.enclosed_cells}};
+  if (result.fill_choice) report["fill_choice"] = fill_choice_json(*result.fill_choice);
   report["cut"] = cut_json(result, options, facts);
   report["certificate"] = certificate_json(result.certificate);
   report["surface"] = surface_json(result, options);

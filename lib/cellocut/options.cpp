@@ -35,6 +35,9 @@ void RemeshOptions::validate() const {
   require(area_bits >= 8 && area_bits <= 50, "--area-bits must be between 8 and 50");
   require(surface != SurfaceMode::union_ || (thickening && unary),
           "--no-thickening and --no-unary need --surface sdf or cells");
+  require(!lambda_auto || (thickening && unary),
+          "--lambda-fill auto needs the slab and the anchored cells: no --no-thickening, no "
+          "--no-unary");
   require(surface != SurfaceMode::cells || !pulls(), "--surface cells cannot be pulled");
   require(surface != SurfaceMode::cells || !fair, "--surface cells cannot be faired");
   require(!pull_distance || pulls(), "--pull-distance needs --pull");
@@ -76,6 +79,7 @@ DerivedParameters derive_parameters(const TriangleSoup& input, const RemeshOptio
   }
   derived.epsilon_steps = derived.epsilon * options.resolution;
   derived.epsilon_below_step = options.thickening && derived.epsilon < step;
+  if (!options.lambda_auto) derived.lambda_fill = options.lambda_fill;
   derived.pull_distance = options.pull_distance.value_or(std::min(step, derived.epsilon) / 40);
   if (options.pulls() && derived.pull_distance > derived.epsilon) {
     throw UsageError("--pull-distance must be at most epsilon, here " +

@@ -8,6 +8,7 @@
 #include "cellocut/base/stopwatch.h"
 #include "cellocut/field/distance_field.h"
 #include "cellocut/field/flood_sign.h"
+#include "cellocut/path/one_sided.h"
 #include "cellocut/surface/components.h"
 #include "cellocut/surface/interface.h"
 #include "cellocut/surface/iso_surface.h"
@@ -68,7 +69,7 @@ CertificateReport certify(const RemeshResult& result, const RemeshOptions& optio
   return check_certificate({.complex = result.complex,
                             .initial = result.initial_label,
                             .mode = options.exterior,
-                            .lambda = options.lambda_fill,
+                            .lambda = result.derived.lambda_fill,
                             .unit = result.frame.unit,
                             .area_bits = options.area_bits,
                             .facet_flow = result.facet_flow,
@@ -139,16 +140,40 @@ void adopt_read_back(RemeshResult& result, MeshFormat format) {
   result.surface = std::move(seen);
 }
 
+// The nearest points of the input, built by the first stage that uses them.
+class LazyNearest {
+ public:
+  explicit LazyNearest(const TriangleSoup& input) : input_(input) {}
+  const NearestTriangle& operator()() {
+    if (!nearest_) nearest_.emplace(input_);
+    return *nearest_;
+  }
+
+ private:
+  const TriangleSoup& input_;
+  std::optional<NearestTriangle> nearest_;
+};
+
+// Finds the fill path and poses the cut anew with the lambda that is chosen from it.
+void choose_lambda(RemeshResult& result, CutSolver& solver, LazyNearest& nearest_point,
+                   Observer& observer) {
+  const CellPath path =
+      find_cell_path(result.graph, result.facets, result.areas, result.initial_label, kAutoFirst,
+                     kAutoLast, solver, observer);
+  const std::vector<SheetSides> sides =
+      measure_sheet_sides(result.complex, result.facets, result.areas, result.initial_label, path,
+                          nearest_point(), result.derived.epsilon * result.frame.unit, observer);
+  result.fill_choice = choose_fill(path, sides, path_solids(result.complex, path));
+  result.derived.lambda_fill = result.fill_choice->lambda;
+  result.graph = build_cell_graph(result.complex, result.facets, result.areas, result.initial_label,
+                                  result.anchors, result.derived.lambda_fill);
+}
+
 // What is done to the extracted surface: the supported part goes to the input, the completed one
 // where it bends least; then fewer triangles, and where each vertex comes from.
 void treat_surface(const TriangleSoup& input, const RemeshOptions& options, RemeshResult& result,
-                   StageClock& stage, Observer& observer) {
+                   LazyNearest& nearest_point, StageClock& stage, Observer& observer) {
   const double unit = result.frame.unit;
-  std::optional<NearestTriangle> nearest;  // built by the first stage that uses it
-  const auto nearest_point = [&]() -> const NearestTriangle& {
-    if (!nearest) nearest.emplace(input);
-    return *nearest;
-  };
   if (options.pulls()) {
     result.pull = stage("pull", [&] {
       return pull_to_input(result.surface, result.supported, nearest_point(),
@@ -221,7 +246,7 @@ RemeshResult pose_cut(const TriangleSoup& input, const RemeshOptions& options,
                          ? anchor_cells(result.complex, result.initial_label, options.exterior)
                          : std::vector<Anchor>(result.complex.cells.size(), Anchor::free);
     return build_cell_graph(result.complex, result.facets, result.areas, result.initial_label,
-                            result.anchors, options.lambda_fill);
+                            result.anchors, result.derived.lambda_fill);
   });
   return result;
 }
@@ -232,7 +257,7 @@ void adopt_cut(RemeshResult& result, const RemeshOptions& options, CutResult cut
   result.label =
       options.cut == CutChoice::largest ? result.largest_interior : result.smallest_interior;
   result.facet_flow = lift_flow(result.graph, result.facets, result.areas, result.initial_label,
-                                result.anchors, options.lambda_fill, cut.edge_flow);
+                                result.anchors, result.derived.lambda_fill, cut.edge_flow);
   result.cut = std::move(cut);
   result.certificate = certify(result, options);
 }
@@ -262,15 +287,27 @@ RemeshResult remesh(const TriangleSoup& input, const RemeshOptions& options,
   if (options.transfer_colour && input.colours.empty()) {
     throw InputError("the mesh has no colours at its vertices that could be transferred");
   }
+  if (options.lambda_auto && !solver.info().exact) {
+    throw UsageError("--lambda-fill auto needs an exact solver");
+  }
   RemeshResult result = pose_cut(input, options, tetrahedralizer, observer);
   if (result.proxy.mesh.empty()) return result;
+
+  LazyNearest nearest_point(input);
+  if (options.lambda_auto) {
+    StageClock stage(result.stages, observer);
+    stage("fill path", [&] {
+      choose_lambda(result, solver, nearest_point, observer);
+      return result.fill_choice->labellings;
+    });
+  }
 
   // Stage 3: optimization and extraction.
   minimise_cut(result, options, solver, observer);
   if (result.cut.status == CutStatus::invalid || result.empty_solid()) return result;
   StageClock stage(result.stages, observer);
   result.surface = stage("surface", [&] { return extract_surface(result, options, observer); });
-  treat_surface(input, options, result, stage, observer);
+  treat_surface(input, options, result, nearest_point, stage, observer);
   result.surface_report = stage("validity", [&] {
     return inspect_surface(result.surface, SurfaceCheckOptions{.observer = &observer});
   });

@@ -16,6 +16,7 @@
 #include "cellocut/field/sparse_field.h"
 #include "cellocut/mesh/mesh_file.h"
 #include "cellocut/mesh/triangle_soup.h"
+#include "cellocut/path/auto_fill.h"
 #include "cellocut/proxy/proxy.h"
 #include "cellocut/surface/fair_report.h"
 #include "cellocut/surface/provenance.h"
@@ -44,6 +45,9 @@ struct RemeshOptions {
   std::optional<double> epsilon_absolute;
   double decimate = 0.95;       // share of the proxy's faces to remove; 0 to 0.99
   Rational lambda_fill{20, 1};  // weight of an unsupported interface; terms up to 2^20
+  // Whether lambda_fill is chosen from the fill path (path/auto_fill.h); by remesh() alone, with an
+  // exact solver.
+  bool lambda_auto = false;
   ExteriorMode exterior = ExteriorMode::unbounded;
   int area_bits = 40;  // facet areas sum to at most 2^area_bits quanta; 8 to 50
   CutChoice cut = CutChoice::largest;
@@ -91,6 +95,7 @@ struct DerivedParameters {
   double epsilon_steps = 0;         // in grid steps
   bool epsilon_below_step = false;  // eps < h: thin parts may perforate
   double pull_distance = 0;         // relative
+  Rational lambda_fill{1, 1};       // 1 until it is chosen, where that is asked for
 };
 
 // Errors: InputError for a mesh without faces or extent; UsageError where eps < h / 2 (a slab
@@ -110,6 +115,7 @@ struct RemeshResult {
   FacetAreas areas;
   std::vector<Anchor> anchors;
   CellGraph graph;
+  std::optional<FillChoice> fill_choice;  // where lambda_fill was chosen
   CutResult cut;
   CellLabels smallest_interior;  // the two canonical minima
   CellLabels largest_interior;

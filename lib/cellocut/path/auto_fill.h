@@ -1,0 +1,48 @@
+// Which labelling of a fill path is the solid that the input is the surface of.
+//
+// The rule: the one with the most one-sided input (one_sided.h). Of a solid's surface each part has
+// the solid on one side and nothing on the other. Where a body is left hollow, both sides of its
+// sheets are in the open; where a cavity or a handle is filled that should not be, sheets are
+// swallowed; both cost one-sided area, whatever the size of the holes that the body has. Of equals
+// the one of the largest lambda. docs/benchmarks.md has the measurements.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "cellocut/energy/energy.h"
+#include "cellocut/path/cell_path.h"
+#include "cellocut/path/one_sided.h"
+
+namespace cellocut {
+
+// The range in which a labelling is looked for: below, an opening would be closed that has less
+// than twice its own area of sheet behind it. (An open hemisphere is a bowl.)
+inline constexpr Lambda kAutoFirst{2, 1};
+inline constexpr Lambda kAutoLast{1000, 1};
+
+struct FillCandidate {
+  Lambda from;  // its interval
+  Lambda to;
+  SheetSides sides;   // squared relative units
+  double volume = 0;  // of its cells, cubed input units
+};
+
+struct FillChoice {
+  Rational lambda;  // a fraction with small terms within the chosen interval
+  FillCandidate chosen;
+  // The best of those whose volume differs by more than 5 % of the chosen one's.
+  std::optional<FillCandidate> runner_up;
+  std::size_t labellings = 0;
+};
+
+// The simplest fraction strictly between two others: of all there the one with the smallest terms.
+// Precondition: a < b. O(size of the continued fraction).
+Lambda simplest_between(const Lambda& a, const Lambda& b);
+
+// Labellings whose interval holds no fraction with terms up to 2^20 are passed over.
+// Preconditions: one entry per labelling each, at least one.
+FillChoice choose_fill(const CellPath& path, const std::vector<SheetSides>& sides,
+                       const std::vector<PathSolid>& solids);
+
+}  // namespace cellocut

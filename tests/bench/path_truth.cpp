@@ -1,0 +1,90 @@
+// How well each labelling of a fill path fits a known solid.
+//
+//   path_truth RESOLUTION TRUTH DAMAGED [TRUTH DAMAGED ...]
+//
+// One line of CSV for each labelling whose interval is at least 0.1 % of lambda long, and for
+// the first and the last: interval, areas (squared relative units), volume and volume of the slab's
+// cells (cubed relative units), components, one-sided and open area (squared relative units), and
+// the volume IoU of its cells with the truth, a cell counting as inside where its centroid is.
+#include <fmt/core.h>
+
+#include <cstdio>
+#include <exception>
+
+#include "backends/backends.h"
+#include "cellocut/measure/volume_overlap.h"
+#include "cellocut/mesh/mesh_file.h"
+#include "cellocut/path/one_sided.h"
+#include "cellocut/pipeline.h"
+#include "solvers/solvers.h"
+
+namespace {
+
+using namespace cellocut;
+
+void compare(const std::string& truth_file, const std::string& damaged_file, int resolution) {
+  const InsideTest truth(read_mesh(truth_file));
+  if (!truth.closed()) throw InputError("not closed", truth_file);
+  RemeshOptions options;
+  options.resolution = resolution;
+  options.lambda_fill = {1, 1};
+  const TriangleSoup damaged = read_mesh(damaged_file);
+  const RemeshResult result = pose_cut(damaged, options, *backends::make("cgal"));
+  const CellPath path =
+      find_cell_path(result.graph, result.facets, result.areas, result.initial_label, {1, 1},
+                     {1000, 1}, *solvers::make("push_relabel"), silent_observer());
+  const std::vector<PathSolid> solids = path_solids(result.complex, path);
+  const std::vector<SheetSides> sides = measure_sheet_sides(
+      result.complex, result.facets, result.areas, result.initial_label, path,
+      NearestTriangle(damaged), result.derived.epsilon * result.frame.unit, silent_observer());
+
+  // Volumes by level, and of them what is in the truth.
+  std::vector<double> volume(path.count() + 2, 0.0);
+  std::vector<double> common(path.count() + 2, 0.0);
+  double in_truth = 0;
+  double slab = 0;
+  for (std::uint32_t c = 0; c < path.level.size(); ++c) {
+    const double v = cell_volume(result.complex, c);
+    volume[path.level[c]] += v;
+    if (result.initial_label[c] == kInterior) slab += v;
+    if (!truth(cell_centroid(result.complex, c)).inside) continue;
+    in_truth += v;
+    common[path.level[c]] += v;
+  }
+  for (std::size_t level = path.count(); level-- > 0;) {
+    volume[level] += volume[level + 1];
+    common[level] += common[level + 1];
+  }
+  const double unit = result.frame.unit;
+  const double area = 1 / result.areas.scale;
+  const double cube = unit * unit * unit;
+  for (std::size_t k = 0; k < path.count(); ++k) {
+    const double from = k == 0 ? 1 : to_double(path.path.breakpoints[k - 1]);
+    const double to = k + 1 == path.count() ? 1000 : to_double(path.path.breakpoints[k]);
+    if (to < 1.001 * from && k > 0 && k + 1 < path.count()) continue;
+    const double iou = common[k + 1] / (volume[k + 1] + in_truth - common[k + 1]);
+    fmt::print("{},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{},{:.6g},{:.6g},{:.4f}\n",
+               damaged_file, from, to, static_cast<double>(path.path.areas[k].supported) * area,
+               static_cast<double>(path.path.areas[k].unsupported) * area, solids[k].volume / cube,
+               slab / cube, solids[k].components, sides[k].one_sided, sides[k].open, iou);
+  }
+}
+
+}  // namespace
+
+int main(int count, char** arguments) {
+  if (count < 4 || count % 2 != 0) {
+    fmt::print(stderr, "path_truth RESOLUTION TRUTH DAMAGED [TRUTH DAMAGED ...]\n");
+    return 2;
+  }
+  fmt::print("mesh,from,to,supported,unsupported,volume,slab,components,one_sided,open,iou\n");
+  try {
+    for (int n = 2; n + 1 < count; n += 2) {
+      compare(arguments[n], arguments[n + 1], std::stoi(arguments[1]));
+    }
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "{}\n", error.what());
+    return 1;
+  }
+  return 0;
+}

@@ -12,7 +12,8 @@ import datasets
 
 PEER_LIMITS = {"seconds": 600, "memory_gb": 8}
 MEASURES = ("check", "evaluate")
-TABLES = ("robustness", "fidelity", "completion", "sensitivity", "ablation", "deviation", "runtime")
+TABLES = ("robustness", "fidelity", "completion", "sensitivity", "ablation", "deviation", "runtime",
+          "filling")
 
 
 class SuiteError(Exception):

@@ -34,10 +34,16 @@ def f1_at(evaluation, threshold):
     return None
 
 
+def volume_ratio(overlap):
+    """The solid's volume over that of the truth, both counted by the same random points."""
+    return overlap["in_mesh"] / overlap["in_reference"] if overlap.get("in_reference") else None
+
+
 def row_of(result):
     """The flat row of one result: what the CSV holds and the tables read."""
     check = result.get("check") or {}
     evaluation = result.get("evaluation") or {}
+    overlap = evaluation.get("volume_iou") or {}
     unit = (evaluation.get("reference") or {}).get("unit")
     volume = check.get("volume")
     row = {"mesh": result["mesh"], "method": result["method"], "status": result["status"],
@@ -52,7 +58,7 @@ def row_of(result):
                 "anc_p2s": evaluation.get("anc_p2s"),
                 "f1_0.01": f1_at(evaluation, 0.01), "f1_0.002": f1_at(evaluation, 0.002),
                 "volume_relative": volume / unit ** 3 if volume is not None and unit else None,
-                "iou": (evaluation.get("volume_iou") or {}).get("value")})
+                "iou": overlap.get("value"), "volume_ratio": volume_ratio(overlap)})
     images = (evaluation.get("images") or {}).get("mean") or {}
     row.update({f"image_{key}": value for key, value in images.items() if isinstance(value, (int, float))})
     row["measured"] = bool(check)
@@ -192,8 +198,9 @@ class Tables:
     def completion(self):
         return self.fidelity() + "\n" + self.losses()
 
-    def losses(self):
-        """Meshes where another method has the better volume IoU (or CD, where there is none) than the first."""
+    def losses(self, margin=0.0):
+        """Meshes where another method has the better volume IoU (or CD, where there is none) than the first, by more
+        than the margin."""
         first, *others = self.compared()
         key = "iou" if numbers(self.rows.values(), "iou") else "cd"
         sign = 1 if key == "iou" else -1
@@ -204,11 +211,25 @@ class Tables:
             ours = self.rows[first, mesh].get(key)
             for other in others:
                 theirs = self.rows[other, mesh].get(key)
-                if theirs is not None and (ours is None or sign * theirs > sign * ours):
+                if theirs is not None and (ours is None or sign * (theirs - ours) > margin):
                     lines.append([mesh, self.label(other), show(ours), show(theirs)])
         if not lines:
             return f"No mesh where another method has a better {key} than {self.label(first)}.\n"
         return f"Where {self.label(first)} loses, by {key}:\n\n" + markdown(["Mesh", "to", "ours", "theirs"], lines)
+
+    def filling(self):
+        """How often the right parts are solid. What has no measure counts as an IoU of 0."""
+        def columns(rows):
+            ious = sorted(row["iou"] or 0.0 for row in rows if row["status"] != "not run")
+            if not ious:
+                return [0, *["-"] * 5]
+            right = sum(row["volume_ratio"] is not None and abs(row["volume_ratio"] - 1) <= 0.02 for row in rows)
+            worst = ious[:max(1, len(ious) // 10)]
+            return [len(ious), show(statistics.median(ious)), show(statistics.fmean(ious)),
+                    show(statistics.fmean(worst)), show(ious[0]), f"{100 * right / len(ious):.0f} %"]
+        return (markdown(["Method", "models", "volume IoU, median", "mean", "mean of the worst tenth", "worst",
+                          "within 2 % of the true volume"], self.each(columns))
+                + "\nOnly where the difference is above 0.01:\n\n" + self.losses(0.01))
 
     def sensitivity(self):
         return self.fidelity()

@@ -185,15 +185,15 @@ int run_path(PathArguments& a) {
   const auto backend = backends::make(a.backend);
   const auto solver = solvers::make(a.solver);
   if (!solver->info().exact) throw UsageError("--solver: the path needs an exact one");
+  const ThreadLimit limit(a.common.threads);
+  TerminalObserver observer(a.common);
+
+  const TriangleSoup input = read_input(a.input, a.input_format);
   std::error_code error;
   fs::create_directories(a.folder, error);
   if (error) throw OutputError("cannot make the folder: " + error.message(), a.folder);
   const fs::path folder(a.folder);
   require_writable({(folder / "path.json").string(), a.common.json});
-  const ThreadLimit limit(a.common.threads);
-  TerminalObserver observer(a.common);
-
-  const TriangleSoup input = read_input(a.input, a.input_format);
   RemeshResult result = pose_cut(input, options, *backend, observer);
   if (result.proxy.mesh.empty()) throw GuaranteeError(a.input + ": no cell is interior");
   observer.stage("path");

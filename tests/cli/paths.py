@@ -1,0 +1,104 @@
+"""`cellocut path` and `--lambda-fill auto`: what they write, that other cuts agree, what they refuse."""
+import csv
+import io
+import json
+import os
+import re
+import xml.etree.ElementTree
+
+from program import COARSE, HAS_VTU, ProgramCase
+
+
+class Path(ProgramCase):
+    def labellings(self, *arguments):
+        self.succeed("path", "holed.obj", "-o", "out", *COARSE, *arguments, "--quiet")
+        return list(csv.DictReader(io.StringIO(self.get("out/path.csv").decode())))
+
+    def test_intervals_meet_and_areas_trade(self):
+        rows = self.labellings("--range", "1/2,500")
+        self.assertGreater(len(rows), 2)
+        self.assertEqual(rows[0]["lambda_from_exact"], "1/2")
+        self.assertEqual(rows[-1]["lambda_to_exact"], "500")
+        for before, after in zip(rows, rows[1:]):
+            self.assertEqual(before["lambda_to_exact"], after["lambda_from_exact"])
+            self.assertLess(int(before["supported_quanta"]), int(after["supported_quanta"]))
+            self.assertGreater(int(before["unsupported_quanta"]), int(after["unsupported_quanta"]))
+            self.assertGreater(float(before["volume"]), float(after["volume"]))
+        report = json.loads(self.get("out/path.json"))
+        self.assertTrue(report["certificate"]["valid"])
+        self.assertEqual([check["name"] for check in report["certificate"]["checks"]],
+                         ["sizes", "anchors", "areas", "breakpoints", "capacities", "conservation"])
+        self.assertEqual(len(report["labellings"]), len(rows))
+
+    def test_single_cuts_agree(self):
+        rows = self.labellings()
+        for row in rows[::max(1, len(rows) // 4)]:
+            middle = 0.5 * (float(row["lambda_from"]) + float(row["lambda_to"]))
+            fraction = f"{round(middle * 1000)}/1000"
+            if not float(row["lambda_from"]) < round(middle * 1000) / 1000 < float(row["lambda_to"]):
+                continue
+            self.succeed("remesh", "holed.obj", "-o", "o.obj", *COARSE, "--lambda-fill", fraction, "--json", "r.json")
+            cut = json.loads(self.get("r.json"))["cut"]
+            self.assertEqual(cut["value"], cut["lambda_den"] * int(row["supported_quanta"]) +
+                             cut["lambda_num"] * int(row["unsupported_quanta"]))
+            self.assertEqual(cut["interior_cells_largest"], int(row["interior_cells"]))
+
+    def test_same_bytes_for_other_solvers_and_threads(self):
+        rows = self.labellings("--threads", "1")
+        for arguments in (("--threads", "4"), ("--solver", "bk"), ("--solver", "ibfs")):
+            self.assertEqual(self.labellings(*arguments), rows)
+
+    def test_files_for_looking_at(self):
+        rows = self.labellings("--surfaces", "3")
+        svg = xml.etree.ElementTree.fromstring(self.get("out/path.svg"))
+        self.assertEqual(len(svg.findall("{http://www.w3.org/2000/svg}polyline")), 2)
+        self.assertIn(f"{len(rows)} labellings", self.get("out/path.svg").decode())
+        if not HAS_VTU:
+            return
+        self.assertIn(b'Name="label_path"', self.get("out/cells.vtu"))
+        sets = xml.etree.ElementTree.fromstring(self.get("out/path.pvd")).findall("./Collection/DataSet")
+        self.assertEqual(len(sets), min(3, len(rows)))
+        times = [float(entry.get("timestep")) for entry in sets]
+        self.assertEqual(times, sorted(times))
+        for entry in sets:
+            self.assertTrue(os.path.isfile(self.path("out/" + entry.get("file"))))
+
+    def test_refuses(self):
+        self.put("file", "")
+        for arguments, code, what in (
+                (("holed.obj", "-o", "out", "--range", "5,5"), 2, "--range: the first has to be"),
+                (("holed.obj", "-o", "out", "--range", "5"), 2, "--range: give two numbers"),
+                (("holed.obj", "-o", "out", "--range", "0,5"), 2, "--range: '0' is not a positive"),
+                (("holed.obj", "-o", "out", "--no-unary"), 2, "--no-unary: .*not nested"),
+                (("holed.obj", "-o", "out", "--solver", "lp"), 2, "--solver: .*exact"),
+                (("holed.obj", "-o", "out", "--lambda-fill", "3"), 2, ".*--lambda-fill"),
+                (("gone.obj", "-o", "out"), 3, r"gone\.obj: cannot open"),
+                (("holed.obj", "-o", "file"), 6, "file: cannot make the folder")):
+            with self.subTest(arguments):
+                self.fail_with(code, r"\Acellocut: " + what, "path", *arguments, outputs=())
+
+
+class AutoFill(ProgramCase):
+    def test_the_report_says_what_was_chosen(self):
+        run = self.succeed("remesh", "holed.obj", "-o", "o.obj", *COARSE, "--lambda-fill", "auto", "--json", "r.json")
+        report = json.loads(self.get("r.json"))
+        choice = report["fill_choice"]
+        self.assertEqual(report["parameters"]["lambda_fill"], choice["lambda_fill"])
+        numerator, _, denominator = choice["lambda_fill"].partition("/")
+        chosen = int(numerator) / int(denominator or 1)
+        self.assertTrue(choice["chosen"]["lambda_from"] < chosen < choice["chosen"]["lambda_to"])
+        self.assertTrue(report["certificate"]["valid"])
+        self.assertIn("fill path", [stage["name"] for stage in report["stages"]])
+        self.assertRegex(run.stdout.decode(), "(?m)^lambda_fill %s of [0-9]+ labellings" %
+                         re.escape(choice["lambda_fill"]))
+        # It is what that number gives by itself.
+        self.succeed("remesh", "holed.obj", "-o", "p.obj", *COARSE, "--lambda-fill", choice["lambda_fill"])
+        self.assertEqual(self.get("o.obj"), self.get("p.obj"))
+
+    def test_refuses(self):
+        for arguments, what in (
+                (("remesh", "holed.obj", "-o", "o.obj", "--solver", "lp"), "--lambda-fill auto needs an exact"),
+                (("remesh", "holed.obj", "-o", "o.obj", "--no-unary", "--surface", "sdf"), "--lambda-fill auto needs"),
+                (("compare", "holed.obj", "-o", "out"), "--lambda-fill auto: give a number")):
+            with self.subTest(arguments):
+                self.fail_with(2, r"\Acellocut: .*" + what, *arguments, "--lambda-fill", "auto", outputs=())

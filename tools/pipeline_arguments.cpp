@@ -1,8 +1,57 @@
 #include "tools/pipeline_arguments.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <locale>
+#include <optional>
+#include <sstream>
+
+#include "cellocut/base/errors.h"
 
 namespace cellocut::tools {
+
+namespace {
+
+// "1,2.5,-3" or "1 2.5 -3".
+std::optional<Point3> parse_point(std::string text) {
+  std::replace(text.begin(), text.end(), ',', ' ');
+  std::istringstream words(text);
+  words.imbue(std::locale::classic());
+  Point3 point{};
+  std::string rest;
+  if (!(words >> point[0] >> point[1] >> point[2]) || words >> rest || !is_finite(point)) {
+    return std::nullopt;
+  }
+  return point;
+}
+
+// Points, and those of files: one on each line; blank lines and what follows '#' are skipped.
+std::vector<Point3> read_points(const std::string& option, const std::vector<std::string>& texts) {
+  std::vector<Point3> points;
+  for (const std::string& text : texts) {
+    if (const std::optional<Point3> point = parse_point(text)) {
+      points.push_back(*point);
+      continue;
+    }
+    std::ifstream file(text);
+    if (!file || std::filesystem::is_directory(text)) {
+      throw UsageError(option + " " + text + ": neither a point X,Y,Z nor a file that can be read");
+    }
+    std::string line;
+    for (int number = 1; std::getline(file, line); ++number) {
+      line.resize(std::min(line.size(), line.find('#')));
+      if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
+      const std::optional<Point3> point = parse_point(line);
+      if (!point) throw InputError("line " + std::to_string(number) + ": not a point X Y Z", text);
+      points.push_back(*point);
+    }
+  }
+  return points;
+}
+
+}  // namespace
 
 void PipelineArguments::add_to(CLI::App& app, bool with_lambda) {
   app.add_option("-R,--resolution", options.resolution,
@@ -27,6 +76,13 @@ void PipelineArguments::add_to(CLI::App& app, bool with_lambda) {
                  "initially interior")
       ->check(CLI::IsMember({"unbounded", "hull-cells"}))
       ->capture_default_str();
+  app.add_option(
+         "--inside", inside,
+         "A point X,Y,Z (input units; --inside=-1,0,2 where it begins with a minus) that is "
+         "to be solid, or a file with one on each line; may be repeated")
+      ->allow_extra_args(false);
+  app.add_option("--outside", outside, "The same for what is to be empty: opens a cavity")
+      ->allow_extra_args(false);
   app.add_option("--area-bits", options.area_bits,
                  "Facet areas sum to at most 2^bits quanta, 8 to 50")
       ->capture_default_str();
@@ -42,6 +98,8 @@ void PipelineArguments::complete() {
   } catch (const UsageError& error) {
     throw UsageError(std::string("--lambda-fill: ") + error.what());
   }
+  options.guidance.inside = read_points("--inside", inside);
+  options.guidance.outside = read_points("--outside", outside);
   options.exterior = exterior == "unbounded" ? ExteriorMode::unbounded : ExteriorMode::hull_cells;
   options.thickening = !no_thickening;
   options.unary = !no_unary;

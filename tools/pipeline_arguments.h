@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "cellocut/pipeline.h"
 
@@ -15,12 +16,16 @@ struct PipelineArguments {
   RemeshOptions options;
   std::string lambda = "20";
   std::string exterior = "unbounded";
+  std::vector<std::string> inside;  // points, or files of them
+  std::vector<std::string> outside;
   bool no_thickening = false;
   bool no_unary = false;
 
   // Without --lambda-fill where all are asked for.
   void add_to(CLI::App& app, bool with_lambda = true);
-  // Turns the texts into options. Errors: UsageError that names the option.
+  // Turns the texts into options, and reads files of points. Errors: UsageError that names the
+  // option; InputError for a file that cannot be read, or with the number of a line that is no
+  // point.
   void complete();
 };
 

@@ -239,7 +239,9 @@ Json remesh_json(const RemeshResult& result, const RemeshOptions& options,
                       {"edges", result.graph.problem.edges.size()},
                       {"nodes_removed", result.graph.anchored_cells + result.graph.enclosed_cells},
                       {"cells_anchored", result.graph.anchored_cells},
-                      {"cells_enclosed", result.graph.enclosed_cells}};
+                      {"cells_enclosed", result.graph.enclosed_cells},
+                      {"cells_guided_inside", result.guided.inside.size()},
+                      {"cells_guided_outside", result.guided.outside.size()}};
   if (result.fill_choice) report["fill_choice"] = fill_choice_json(*result.fill_choice);
   report["cut"] = cut_json(result, options, facts);
   report["certificate"] = certificate_json(result.certificate);

@@ -76,7 +76,8 @@ CertificateReport certify(const RemeshResult& result, const RemeshOptions& optio
                             .value = result.cut.value,
                             .smallest_interior = result.smallest_interior,
                             .largest_interior = result.largest_interior,
-                            .unary = options.unary});
+                            .unary = options.unary,
+                            .guided = result.guided});
 }
 
 // The surface in index coordinates of the grid.
@@ -245,6 +246,8 @@ RemeshResult pose_cut(const TriangleSoup& input, const RemeshOptions& options,
     result.anchors = options.unary
                          ? anchor_cells(result.complex, result.initial_label, options.exterior)
                          : std::vector<Anchor>(result.complex.cells.size(), Anchor::free);
+    result.guided =
+        guide_cells(result.complex, options.guidance, result.initial_label, result.anchors);
     return build_cell_graph(result.complex, result.facets, result.areas, result.initial_label,
                             result.anchors, result.derived.lambda_fill);
   });

@@ -49,6 +49,7 @@ struct RemeshOptions {
   // exact solver.
   bool lambda_auto = false;
   ExteriorMode exterior = ExteriorMode::unbounded;
+  Guidance guidance;   // points that are to be inside or outside
   int area_bits = 40;  // facet areas sum to at most 2^area_bits quanta; 8 to 50
   CutChoice cut = CutChoice::largest;
   SurfaceMode surface = SurfaceMode::union_;
@@ -114,6 +115,7 @@ struct RemeshResult {
   FacetList facets;
   FacetAreas areas;
   std::vector<Anchor> anchors;
+  GuidedCells guided;  // of these, fixed by the guidance
   CellGraph graph;
   std::optional<FillChoice> fill_choice;  // where lambda_fill was chosen
   CutResult cut;

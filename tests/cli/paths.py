@@ -6,7 +6,7 @@ import os
 import re
 import xml.etree.ElementTree
 
-from program import COARSE, HAS_VTU, ProgramCase
+from program import COARSE, HAS_VTU, ProgramCase, box, obj_text
 
 
 class Path(ProgramCase):
@@ -102,3 +102,40 @@ class AutoFill(ProgramCase):
                 (("compare", "holed.obj", "-o", "out"), "--lambda-fill auto: give a number")):
             with self.subTest(arguments):
                 self.fail_with(2, r"\Acellocut: .*" + what, *arguments, "--lambda-fill", "auto", outputs=())
+
+
+class Guidance(ProgramCase):
+    def volume(self, *arguments):
+        self.succeed("remesh", "box.obj", "-o", "o.obj", *COARSE, *arguments, "--json", "r.json")
+        report = json.loads(self.get("r.json"))
+        self.assertTrue(report["certificate"]["valid"])
+        return report["output"]["volume"], report["counts"]
+
+    def setUp(self):
+        super().setUp()
+        self.put("box.obj", obj_text(box((-1.0, -1.0, -1.0), (1.0, 1.0, 1.0))))
+
+    def test_points_and_files(self):
+        filled, counts = self.volume()
+        self.assertGreater(filled, 7)
+        self.assertEqual((counts["cells_guided_inside"], counts["cells_guided_outside"]), (0, 0))
+        hollow, counts = self.volume("--outside", "0,0,0")
+        self.assertLess(hollow, 0.5 * filled)
+        self.assertGreater(counts["cells_guided_outside"], 0)
+        self.put("points.txt", "# the middle\n\n0 0 0  # of the box\n-0.1, 0.2, 0.1\r\n")
+        self.assertLess(self.volume("--outside", "points.txt")[0], 0.5 * filled)
+        self.assertEqual(self.volume("--inside=-0.1,0.2,0.1", "--inside", "0,0,0")[0], filled)
+        self.succeed("path", "box.obj", "-o", "out", *COARSE, "--outside", "0,0,0", "--quiet")
+        self.assertTrue(json.loads(self.get("out/path.json"))["certificate"]["valid"])
+
+    def test_refuses(self):
+        self.put("bad.txt", "0 0 0\n1 2\n")
+        for arguments, code, what in (
+                (("--inside", "1,2"), 2, "--inside 1,2: neither a point"),
+                (("--inside", "1,2,nan"), 2, "--inside 1,2,nan: neither a point"),
+                (("--inside", "bad.txt"), 3, r"bad\.txt: line 2: not a point"),
+                (("--outside", "1,0,0"), 2, "--outside 1,0,0: lies in the thickened input"),
+                (("--inside", "9,0,0"), 2, "--inside 9,0,0: lies beyond the hull"),
+                (("--inside", "0,0,0", "--outside", "0,0,0"), 2, "--inside 0,0,0: .*same tetrahedron")):
+            with self.subTest(arguments):
+                self.fail_with(code, r"\Acellocut: " + what, "remesh", "box.obj", "-o", "out.obj", *COARSE, *arguments)

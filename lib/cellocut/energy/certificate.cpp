@@ -66,6 +66,9 @@ class Checker {
  public:
   explicit Checker(const CertificateClaim& claim) : claim_(claim), complex_(claim.complex) {}
 
+  // What the user's points fix.
+  enum class Guided : std::uint8_t { no, inside, outside };
+
   CertificateReport run();
 
  private:
@@ -80,6 +83,7 @@ class Checker {
   std::string parameter_defect() const;
   std::string complex_defect() const;
   std::string match_facets();
+  std::string match_guided();
   std::string quantise();
   std::string cell_name(std::int64_t cell) const;
 
@@ -90,7 +94,7 @@ class Checker {
     return cell == kOutside ? kExterior : claim_.initial[static_cast<std::size_t>(cell)];
   }
   bool interior_anchor(std::size_t cell) const {
-    return claim_.unary && claim_.initial[cell] == kInterior;
+    return (claim_.unary && claim_.initial[cell] == kInterior) || guided_[cell] == Guided::inside;
   }
   bool exterior_anchor(std::size_t cell) const;
   std::array<std::uint32_t, 3> corners_of(std::size_t cell, int k) const;
@@ -101,12 +105,14 @@ class Checker {
 
   const CertificateClaim& claim_;
   const TetComplex& complex_;
+  std::vector<Guided> guided_;                // per cell
   std::vector<Side> facets_;                  // ascending by (lower cell, corner)
   std::vector<std::uint32_t> facet_of_side_;  // [4 * cell + corner], both sides of a facet
   std::vector<Wide> capacities_;              // per facet
 };
 
 bool Checker::exterior_anchor(std::size_t cell) const {
+  if (guided_[cell] == Guided::outside) return true;
   if (claim_.mode != ExteriorMode::hull_cells || claim_.initial[cell] != kExterior) return false;
   const auto& around = complex_.neighbours[cell];
   return std::find(around.begin(), around.end(), kOutside) != around.end();
@@ -165,6 +171,25 @@ std::string Checker::parameter_defect() const {
       if ((*labels)[c] != kInterior && (*labels)[c] != kExterior) {
         return std::string("the ") + name + " label of cell " + std::to_string(c) + " is " +
                std::to_string((*labels)[c]);
+      }
+    }
+  }
+  return {};
+}
+
+// Where each cell is fixed, to one label.
+std::string Checker::match_guided() {
+  guided_.assign(cell_count(), Guided::no);
+  for (const auto& [cells, label] : {std::pair{&claim_.guided.inside, Guided::inside},
+                                     std::pair{&claim_.guided.outside, Guided::outside}}) {
+    for (const std::uint32_t cell : *cells) {
+      if (cell >= cell_count()) return "a guided cell is not there";
+      const bool contrary =
+          label == Guided::outside ? interior_anchor(cell) : exterior_anchor(cell);
+      if (guided_[cell] == Guided::no && !contrary) {
+        guided_[cell] = label;
+      } else if (guided_[cell] != label) {
+        return "cell " + std::to_string(cell) + " is fixed to both labels";
       }
     }
   }
@@ -235,6 +260,7 @@ Finding Checker::check_sizes() {
   std::string defect = parameter_defect();
   if (defect.empty()) defect = complex_defect();
   if (defect.empty()) defect = match_facets();
+  if (defect.empty()) defect = match_guided();
   if (!defect.empty()) return failed(std::move(defect));
   if (claim_.facet_flow.size() != facets_.size()) {
     return failed(std::to_string(claim_.facet_flow.size()) + " flows for " +

@@ -10,6 +10,7 @@
 
 #include "cellocut/complex/tet_complex.h"
 #include "cellocut/energy/energy.h"
+#include "cellocut/energy/guidance.h"
 
 namespace cellocut {
 
@@ -38,7 +39,8 @@ struct CertificateClaim {
   std::int64_t value;  // the claimed minimum, of the whole complex, in integer units
   const CellLabels& smallest_interior;
   const CellLabels& largest_interior;
-  bool unary = true;  // false: no cell is anchored interior, L* only sets weights
+  bool unary = true;        // false: no cell is anchored interior, L* only sets weights
+  GuidedCells guided = {};  // fixed by the user's points, besides the others
 };
 
 // Checks, in this order, each reported by name:

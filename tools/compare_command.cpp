@@ -60,7 +60,7 @@ void add_arguments(CLI::App& app, CompareArguments& a) {
   app.add_flag("--no-crossover", a.no_crossover,
                "lp: leave it at a labelling and a bound, with no flow and no certificate");
   app.add_flag("--write-problems", a.write_problems, "Each mesh's problem too, as .max and .bbk");
-  a.pipeline.add_to(app);
+  a.pipeline.add_to(app, LambdaOption::number);
   a.common.add_to(app);
 }
 

@@ -23,6 +23,9 @@ ErrorLine describe_error(const std::exception& error, const std::string& input) 
   }
   if (dynamic_cast<const UsageError*>(&error) != nullptr) return line(kUsage, {}, error.what());
   if (dynamic_cast<const LimitError*>(&error) != nullptr) return line(kLimit, input, error.what());
+  if (dynamic_cast<const CertificateError*>(&error) != nullptr) {
+    return line(kCertificateFailed, input, error.what());
+  }
   if (dynamic_cast<const Cancelled*>(&error) != nullptr) {
     return line(kInterrupted, input, error.what());
   }

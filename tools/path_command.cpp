@@ -65,7 +65,7 @@ void add_arguments(CLI::App& app, PathArguments& a) {
       ->check(CLI::Range(0, 100000))
       ->capture_default_str();
 #endif
-  a.pipeline.add_to(app, /*with_lambda=*/false);
+  a.pipeline.add_to(app, LambdaOption::none);
   a.common.add_to(app);
 }
 
@@ -173,29 +173,46 @@ void write_surfaces(const fs::path& folder, const RemeshResult& result, const Ce
 
 #endif
 
+// Before any work: that the folder is there or can be made, and that no file is asked for twice.
+void check_outputs(const PathArguments& a) {
+  const fs::path folder(a.folder);
+  for (const char* name : {"path.json", "path.csv", "path.svg", "cells.vtu", "path.pvd"}) {
+    if (!a.common.json.empty() && a.common.json != "-" &&
+        fs::weakly_canonical(a.common.json) == fs::weakly_canonical(folder / name)) {
+      throw UsageError(a.common.json + ": two outputs cannot be the same file");
+    }
+  }
+  if (fs::is_directory(folder)) {
+    require_writable({(folder / "path.json").string(), a.common.json});
+  } else if (fs::exists(folder)) {
+    throw UsageError(a.folder + ": not a folder");
+  } else {
+    fs::path name = folder.lexically_normal();
+    if (!name.has_filename()) name = name.parent_path();  // "out/"
+    require_writable({name.string(), a.common.json});
+  }
+}
+
 int run_path(PathArguments& a) {
   a.pipeline.complete();
   RemeshOptions& options = a.pipeline.options;
   options.lambda_fill = {1, 1};
-  if (!options.unary) {
-    throw UsageError("--no-unary: without anchored cells the minima are not nested; no path");
-  }
   options.validate();
   const Range range = parse_range(a.range);
   const auto backend = backends::make(a.backend);
   const auto solver = solvers::make(a.solver);
   if (!solver->info().exact) throw UsageError("--solver: the path needs an exact one");
+  check_outputs(a);
   const ThreadLimit limit(a.common.threads);
   TerminalObserver observer(a.common);
 
   const TriangleSoup input = read_input(a.input, a.input_format);
-  std::error_code error;
-  fs::create_directories(a.folder, error);
-  if (error) throw OutputError("cannot make the folder: " + error.message(), a.folder);
   const fs::path folder(a.folder);
-  require_writable({(folder / "path.json").string(), a.common.json});
   RemeshResult result = pose_cut(input, options, *backend, observer);
-  if (result.proxy.mesh.empty()) throw GuaranteeError(a.input + ": no cell is interior");
+  const CellLabels& initial = result.initial_label;
+  if (std::find(initial.begin(), initial.end(), kInterior) == initial.end()) {
+    throw GuaranteeError("no cell is interior, there is no solid");
+  }
   observer.stage("path");
   Stopwatch stopwatch;
   const CellPath path =
@@ -206,7 +223,8 @@ int run_path(PathArguments& a) {
   stopwatch.restart();
   const CertificateReport certificate = check_path({.complex = result.complex,
                                                     .initial = result.initial_label,
-                                                    .anchors = result.anchors,
+                                                    .mode = options.exterior,
+                                                    .guided = result.guided,
                                                     .unit = result.frame.unit,
                                                     .area_bits = options.area_bits,
                                                     .path = path});
@@ -234,6 +252,9 @@ int run_path(PathArguments& a) {
   report["area_quantum"] = 1 / result.areas.scale;
   report.update(path_json(entries, path, certificate));
   observer.stage("files");
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) throw OutputError("cannot make the folder: " + error.message(), a.folder);
   const std::string name = fs::path(a.input).filename().string();
   write_text((folder / "path.csv").string(), path_csv(entries));
   write_text((folder / "path.svg").string(),

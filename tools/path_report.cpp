@@ -18,7 +18,8 @@ std::string fraction(const Lambda& lambda) {
 }
 
 double unsupported_share(const PathEntry& entry) {
-  return entry.unsupported / (entry.supported + entry.unsupported);
+  const double area = entry.supported + entry.unsupported;
+  return area > 0 ? entry.unsupported / area : 0;
 }
 
 // A place on the plot: lambda from left to right, logarithmic; shares from bottom to top.
@@ -81,8 +82,9 @@ std::vector<PathEntry> path_entries(const RemeshResult& result, const CellPath& 
   std::vector<PathEntry> entries;
   for (std::size_t k = 0; k < path.count(); ++k) {
     PathEntry entry;
-    entry.from = k == 0 ? found.first : found.breakpoints[k - 1];
-    entry.to = k + 1 == path.count() ? found.last : found.breakpoints[k];
+    const LambdaInterval interval = interval_of(found, k);
+    entry.from = interval.from;
+    entry.to = interval.to;
     entry.quanta = found.areas[k];
     entry.supported = static_cast<double>(entry.quanta.supported) * area;
     entry.unsupported = static_cast<double>(entry.quanta.unsupported) * area;

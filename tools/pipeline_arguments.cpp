@@ -53,7 +53,7 @@ std::vector<Point3> read_points(const std::string& option, const std::vector<std
 
 }  // namespace
 
-void PipelineArguments::add_to(CLI::App& app, bool with_lambda) {
+void PipelineArguments::add_to(CLI::App& app, LambdaOption lambda_option) {
   app.add_option("-R,--resolution", options.resolution,
                  "Grid steps along the longest edge of the box, 8 to 16384")
       ->capture_default_str();
@@ -65,11 +65,15 @@ void PipelineArguments::add_to(CLI::App& app, bool with_lambda) {
       ->excludes(epsilon);
   app.add_option("--decimate", options.decimate, "Share of the proxy's faces to remove, 0 to 0.99")
       ->capture_default_str();
-  if (with_lambda) {
-    app.add_option("--lambda-fill", lambda,
-                   "Weight of an unsupported interface: a number or p/q, terms up to 2^20; auto: "
-                   "chosen so that most of the input has the solid on one side alone")
-        ->capture_default_str();
+  std::string weight = "Weight of an unsupported interface: a number or p/q, terms up to 2^20";
+  if (lambda_option == LambdaOption::number_or_auto) {
+    weight += "; auto: chosen so that most of the input has the solid on one side alone";
+  }
+  if (lambda_option != LambdaOption::none) {
+    app.add_option("--lambda-fill", lambda, weight)->capture_default_str();
+    app.add_flag("--no-thickening", no_thickening,
+                 "Ablation: phi is the flood-signed distance, no offset");
+    app.add_flag("--no-unary", no_unary, "Ablation: no cell is anchored interior");
   }
   app.add_option("--exterior", exterior,
                  "What is fixed exterior: the unbounded region, or every hull cell that is not "
@@ -86,9 +90,6 @@ void PipelineArguments::add_to(CLI::App& app, bool with_lambda) {
   app.add_option("--area-bits", options.area_bits,
                  "Facet areas sum to at most 2^bits quanta, 8 to 50")
       ->capture_default_str();
-  app.add_flag("--no-thickening", no_thickening,
-               "Ablation: phi is the flood-signed distance, no offset");
-  app.add_flag("--no-unary", no_unary, "Ablation: no cell is anchored interior");
 }
 
 void PipelineArguments::complete() {

@@ -12,6 +12,13 @@ class App;
 
 namespace cellocut::tools {
 
+// What --lambda-fill takes, and with it what else makes sense.
+enum class LambdaOption {
+  none,  // all weights at once: no such option, no ablations
+  number,
+  number_or_auto
+};
+
 struct PipelineArguments {
   RemeshOptions options;
   std::string lambda = "20";
@@ -21,8 +28,7 @@ struct PipelineArguments {
   bool no_thickening = false;
   bool no_unary = false;
 
-  // Without --lambda-fill where all are asked for.
-  void add_to(CLI::App& app, bool with_lambda = true);
+  void add_to(CLI::App& app, LambdaOption lambda_option);
   // Turns the texts into options, and reads files of points. Errors: UsageError that names the
   // option; InputError for a file that cannot be read, or with the number of a line that is no
   // point.

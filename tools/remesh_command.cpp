@@ -63,7 +63,7 @@ void add_arguments(CLI::App& app, RemeshArguments& a) {
   app.add_option("--solver", a.solver,
                  "Minimum-cut solver, see cellocut list (default: bk; push_relabel with "
                  "--lambda-fill auto, whose many cuts it finds faster)");
-  a.pipeline.add_to(app);
+  a.pipeline.add_to(app, LambdaOption::number_or_auto);
   app.add_option("--cut", a.cut, "Which of the minimum cuts: the smallest or the largest interior")
       ->check(CLI::IsMember({"smallest", "largest"}))
       ->capture_default_str();
@@ -183,8 +183,7 @@ void print_summary(const RemeshResult& result, const RemeshArguments& a, double 
                to_double(choice.chosen.to));
     if (choice.runner_up) {
       fmt::print("; another solid, near {:.4g}, has {:.1f} % less one-sided input",
-                 to_double(choice.runner_up->from),
-                 100 * (1 - choice.runner_up->sides.one_sided / choice.chosen.sides.one_sided));
+                 to_double(choice.runner_up->from), 100 * choice.margin());
     }
     fmt::print("\n");
   }

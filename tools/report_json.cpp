@@ -159,8 +159,7 @@ Json fill_choice_json(const FillChoice& choice) {
               {"margin", nullptr}};
   if (choice.runner_up) {
     report["runner_up"] = candidate_json(*choice.runner_up);
-    // How much less one-sided area it has, as a share.
-    report["margin"] = 1 - choice.runner_up->sides.one_sided / choice.chosen.sides.one_sided;
+    report["margin"] = choice.margin();
   }
   return report;
 }

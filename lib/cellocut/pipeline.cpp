@@ -164,7 +164,10 @@ void choose_lambda(RemeshResult& result, CutSolver& solver, LazyNearest& nearest
   const std::vector<SheetSides> sides =
       measure_sheet_sides(result.complex, result.facets, result.areas, result.initial_label, path,
                           nearest_point(), result.derived.epsilon * result.frame.unit, observer);
-  result.fill_choice = choose_fill(path, sides, path_solids(result.complex, path));
+  // Terms with which the problem's capacities, both directions of every facet, stay in range.
+  const std::int64_t largest_term =
+      std::min(kLargestLambdaTerm, kCapacityLimit / 2 / (result.areas.sum + 1));
+  result.fill_choice = choose_fill(path, sides, path_solids(result.complex, path), largest_term);
   result.derived.lambda_fill = result.fill_choice->lambda;
   result.graph = build_cell_graph(result.complex, result.facets, result.areas, result.initial_label,
                                   result.anchors, result.derived.lambda_fill);

@@ -163,7 +163,8 @@ void minimise_cut(RemeshResult& result, const RemeshOptions& options, CutSolver&
 // A cut that fails its certificate or a surface that fails its check is reported in the result, not
 // thrown; later stages are skipped where an earlier one leaves nothing to work on (an empty solid).
 // Errors: UsageError (options), InputError (a mesh without extent, or without the colours that are
-// to be transferred), LimitError, Cancelled.
+// to be transferred), LimitError, Cancelled; with lambda_auto CertificateError, where the solver
+// fails on the way to the weight.
 RemeshResult remesh(const TriangleSoup& input, const RemeshOptions& options,
                     const Tetrahedralizer& tetrahedralizer, CutSolver& solver,
                     Observer& observer = silent_observer());

@@ -59,8 +59,9 @@ void compare(const std::string& truth_file, const std::string& damaged_file, int
   const double area = 1 / result.areas.scale;
   const double cube = unit * unit * unit;
   for (std::size_t k = 0; k < path.count(); ++k) {
-    const double from = k == 0 ? 1 : to_double(path.path.breakpoints[k - 1]);
-    const double to = k + 1 == path.count() ? 1000 : to_double(path.path.breakpoints[k]);
+    const LambdaInterval interval = interval_of(path.path, k);
+    const double from = to_double(interval.from);
+    const double to = to_double(interval.to);
     if (to < 1.001 * from && k > 0 && k + 1 < path.count()) continue;
     const double iou = common[k + 1] / (volume[k + 1] + in_truth - common[k + 1]);
     fmt::print("{},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{},{:.6g},{:.6g},{:.4f}\n",

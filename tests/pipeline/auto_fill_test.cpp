@@ -38,6 +38,58 @@ TEST(SimplestBetween, HasTheSmallestTermsOfAll) {
   }
 }
 
+// A path by hand: labellings at 1, 2, 3.5 and 3.5 + a little, to 9.
+CellPath hand_made_path() {
+  CellPath path;
+  path.path.first = {1, 1};
+  path.path.last = {9, 1};
+  path.path.breakpoints = {{2, 1}, {7, 2}, {7000001, 2000000}};
+  path.path.areas.resize(4);
+  return path;
+}
+std::vector<SheetSides> one_sided(const std::vector<double>& areas) {
+  std::vector<SheetSides> sides;
+  for (const double area : areas) sides.push_back({area, 0});
+  return sides;
+}
+std::vector<PathSolid> volumes(const std::vector<double>& values) {
+  std::vector<PathSolid> solids;
+  for (const double value : values) solids.push_back({value, 1, 1});
+  return solids;
+}
+
+TEST(ChooseFill, TakesTheMostOneSidedAndOfEqualsTheLargestLambda) {
+  const CellPath path = hand_made_path();
+  FillChoice choice = choose_fill(path, one_sided({1, 5, 2, 4}), volumes({9, 8, 7.9, 3}), 1000);
+  EXPECT_EQ(to_string(choice.lambda), "3");
+  EXPECT_TRUE(choice.chosen.to == (Lambda{7, 2}));
+  ASSERT_TRUE(choice.runner_up.has_value());
+  EXPECT_EQ(choice.runner_up->volume, 3);
+  EXPECT_DOUBLE_EQ(choice.margin(), 0.2);
+  choice = choose_fill(path, one_sided({5, 5, 2, 4}), volumes({9, 8, 7, 3}), 1000);
+  EXPECT_EQ(choice.chosen.volume, 8);
+  EXPECT_EQ(choice.runner_up->volume, 9);
+}
+
+TEST(ChooseFill, PassesOverIntervalsWithoutSmallFractions) {
+  const CellPath path = hand_made_path();
+  FillChoice choice = choose_fill(path, one_sided({1, 2, 9, 3}), volumes({9, 8, 7, 3}), 1 << 20);
+  EXPECT_EQ(choice.chosen.volume, 3);
+  EXPECT_EQ(choice.runner_up->volume, 8);  // not the one that was passed over
+  EXPECT_THROW((void)choose_fill(path, one_sided({1, 2, 9, 3}), volumes({9, 8, 7, 3}), 1),
+               LimitError);
+}
+
+TEST(ChooseFill, SaysNothingOfAMarginWhereThereIsNone) {
+  const CellPath path = hand_made_path();
+  FillChoice choice = choose_fill(path, one_sided({0, 0, 0, 0}), volumes({9, 8, 7, 3}), 1000);
+  EXPECT_EQ(choice.chosen.volume, 3);
+  EXPECT_EQ(choice.margin(), 0);
+  choice = choose_fill(path, one_sided({1, 2, 3, 4}), volumes({3.1, 3.05, 3.02, 3}), 1000);
+  EXPECT_FALSE(choice.runner_up.has_value());
+  EXPECT_EQ(choice.margin(), 0);
+}
+
 TEST(PointLocation, FindsACellThatHoldsThePoint) {
   const RemeshResult result =
       pose_cut(test::two_crossing_boxes(), at_resolution(32), *backends::make("cgal"));
@@ -73,7 +125,7 @@ TEST(PointLocation, FindsACellThatHoldsThePoint) {
 RemeshResult run_auto(const TriangleSoup& soup) {
   RemeshOptions options = at_resolution(96);
   options.lambda_auto = true;
-  const RemeshResult result =
+  RemeshResult result =
       remesh(soup, options, *backends::make("cgal"), *solvers::make("push_relabel"));
   expect_sound(result);
   EXPECT_TRUE(result.fill_choice.has_value());

@@ -73,11 +73,20 @@ TEST(Guidance, GoesWithThePathAndTheAutomaticWeight) {
                      {1000, 1}, *solvers::make("bk"), silent_observer());
   EXPECT_TRUE(check_path({.complex = result.complex,
                           .initial = result.initial_label,
-                          .anchors = result.anchors,
+                          .mode = options.exterior,
+                          .guided = result.guided,
                           .unit = result.frame.unit,
                           .area_bits = options.area_bits,
                           .path = path})
                   .valid);
+  EXPECT_FALSE(check_path({.complex = result.complex,
+                           .initial = result.initial_label,
+                           .mode = options.exterior,
+                           .guided = {},
+                           .unit = result.frame.unit,
+                           .area_bits = options.area_bits,
+                           .path = path})
+                   .valid);
   for (const std::uint32_t cell : result.guided.inside) EXPECT_EQ(path.level[cell], path.count());
   options.lambda_auto = true;
   expect_sound(run(test::sphere_with_hole(), options));

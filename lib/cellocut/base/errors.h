@@ -37,6 +37,12 @@ class GuaranteeError : public Error {
   using Error::Error;
 };
 
+// A solver claims what its result does not prove (exit 5).
+class CertificateError : public Error {
+ public:
+  using Error::Error;
+};
+
 // A stated limit was reached: memory, time, integer range, room on a disk (exit 6).
 class LimitError : public Error {
  public:

@@ -15,8 +15,6 @@ namespace {
 
 __extension__ using Wide = __int128;
 
-constexpr std::int64_t kLargestTerm = std::int64_t{1} << 20;
-
 // A decimal or integer as numerator / denominator, both exact.
 Rational parse_decimal(std::string_view text) {
   std::int64_t numerator = 0;
@@ -28,7 +26,8 @@ Rational parse_decimal(std::string_view text) {
       fraction = true;
       continue;
     }
-    if (c < '0' || c > '9' || numerator > (std::int64_t{1} << 40) || denominator > kLargestTerm) {
+    if (c < '0' || c > '9' || numerator > (std::int64_t{1} << 40) ||
+        denominator > kLargestLambdaTerm) {
       return {0, 1};
     }
     digits = true;
@@ -57,7 +56,7 @@ Rational parse_rational(std::string_view text) {
   }
   const std::int64_t common = std::gcd(value.numerator, value.denominator);
   value = {value.numerator / common, value.denominator / common};
-  if (value.numerator > kLargestTerm || value.denominator > kLargestTerm) {
+  if (value.numerator > kLargestLambdaTerm || value.denominator > kLargestLambdaTerm) {
     throw UsageError("'" + std::string(text) +
                      "' is not a fraction p/q with p and q at most 2^20 = 1048576");
   }

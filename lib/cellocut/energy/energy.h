@@ -22,6 +22,7 @@ inline constexpr std::uint8_t kExterior = 1;
 using CellLabels = std::vector<std::uint8_t>;
 
 // lambda_fill = numerator / denominator, both in [1, 2^20], in lowest terms.
+inline constexpr std::int64_t kLargestLambdaTerm = std::int64_t{1} << 20;
 struct Rational {
   std::int64_t numerator = 20;
   std::int64_t denominator = 1;

@@ -34,15 +34,19 @@ struct FillChoice {
   // The best of those whose volume differs by more than 5 % of the chosen one's.
   std::optional<FillCandidate> runner_up;
   std::size_t labellings = 0;
+
+  // The share of one-sided area that the runner-up has less; 0 where there is none of either.
+  [[nodiscard]] double margin() const;
 };
 
 // The simplest fraction strictly between two others: of all there the one with the smallest terms.
 // Precondition: a < b. O(size of the continued fraction).
 Lambda simplest_between(const Lambda& a, const Lambda& b);
 
-// Labellings whose interval holds no fraction with terms up to 2^20 are passed over.
-// Preconditions: one entry per labelling each, at least one.
+// Labellings whose interval holds no fraction with terms up to `largest_term` are passed over.
+// O(labellings). Preconditions: one entry per labelling each, at least one. Errors: LimitError
+// where all are passed over.
 FillChoice choose_fill(const CellPath& path, const std::vector<SheetSides>& sides,
-                       const std::vector<PathSolid>& solids);
+                       const std::vector<PathSolid>& solids, std::int64_t largest_term);
 
 }  // namespace cellocut

@@ -24,11 +24,11 @@ struct CellPath {
   std::vector<Wide> facet_flow;  // FillPath::zone_flow, per facet
 
   [[nodiscard]] std::size_t count() const { return path.areas.size(); }
-  // Labelling k.
+  // Labelling k, below count(). O(cells).
   [[nodiscard]] CellLabels labels(std::size_t k) const;
 };
 
-// Errors: as find_fill_path().
+// As find_fill_path() on the problem of the cells, with its errors.
 CellPath find_cell_path(const CellGraph& graph, const FacetList& facets, const FacetAreas& areas,
                         const CellLabels& initial, const Lambda& first, const Lambda& last,
                         CutSolver& solver, Observer& observer);
@@ -39,8 +39,7 @@ struct PathSolid {
   std::int64_t cells = 0;       // interior
   std::int64_t components = 0;  // of interior cells, joined through facets
 };
-// By labelling. O(cells), up to the inverse of Ackermann's function: each labelling adds cells to
-// the one after it.
+// By labelling. O(cells log cells): each labelling adds cells to the one after it.
 std::vector<PathSolid> path_solids(const TetComplex& complex, const CellPath& path);
 
 }  // namespace cellocut

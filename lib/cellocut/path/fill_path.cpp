@@ -117,6 +117,11 @@ FillPath find_fill_path(const ParametricProblem& problem, const Lambda& first, c
   return PathSearch(solver, observer).run(problem, first, last);
 }
 
+LambdaInterval interval_of(const FillPath& path, std::size_t k) {
+  return {k == 0 ? path.first : path.breakpoints[k - 1],
+          k + 1 == path.areas.size() ? path.last : path.breakpoints[k]};
+}
+
 std::size_t labelling_at(const FillPath& path, const Lambda& lambda) {
   return static_cast<std::size_t>(
       std::lower_bound(path.breakpoints.begin(), path.breakpoints.end(), lambda) -

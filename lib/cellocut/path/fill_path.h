@@ -45,10 +45,19 @@ struct FillPath {
   std::int64_t solved_nodes = 0;  // nodes of all problems
 };
 
-// The whole path over [first, last]. Deterministic for every exact solver, and the same for all.
-// Preconditions: first < last; areas sum to at most 2^50. Errors: as solve_wide().
+// The whole path over [first, last]. labellings are the same for every exact solver; the flow and
+// the figures of the search may differ. Takes fewer than two cuts for each labelling, each of the
+// nodes in which the ends of its range differ. Preconditions: first < last; areas sum to at most
+// 2^50. Errors: as solve_wide(); std::logic_error where cuts are not nested (not known to happen).
 FillPath find_fill_path(const ParametricProblem& problem, const Lambda& first, const Lambda& last,
                         CutSolver& solver, Observer& observer);
+
+// Where labelling k is a minimum. Precondition: k < areas.size().
+struct LambdaInterval {
+  Lambda from;
+  Lambda to;
+};
+LambdaInterval interval_of(const FillPath& path, std::size_t k);
 
 // Whether labelling k has the node on its source side.
 inline bool holds(const FillPath& path, std::size_t k, std::size_t node) {

@@ -28,6 +28,7 @@ std::vector<SheetSides> measure_sheet_sides(const TetComplex& complex, const Fac
   };
   std::vector<Sample> samples(facets.size());
   tbb::parallel_for(std::size_t{0}, facets.size(), [&](std::size_t f) {
+    if (f % 4096 == 0) observer.check();
     const Facet& facet = facets[f];
     const std::uint8_t beyond =
         facet.other == kOutside ? kExterior : initial[static_cast<std::size_t>(facet.other)];

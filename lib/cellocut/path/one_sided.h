@@ -19,7 +19,7 @@ struct SheetSides {
 
 // By labelling of the path. Behind a facet is the point as far beyond the nearest point of the
 // input as twice `offset`, the slab's half thickness (in input units); a cell of the slab there is
-// solid. Parallel; O(facets log faces + labellings). Errors: Cancelled.
+// solid. Parallel; O(facets (log faces + cells on the way behind) + labellings). Errors: Cancelled.
 std::vector<SheetSides> measure_sheet_sides(const TetComplex& complex, const FacetList& facets,
                                             const FacetAreas& areas, const CellLabels& initial,
                                             const CellPath& path, const NearestTriangle& input,

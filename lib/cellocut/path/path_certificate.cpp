@@ -1,5 +1,6 @@
 #include "cellocut/path/path_certificate.h"
 
+#include <cmath>
 #include <string>
 #include <utility>
 
@@ -42,7 +43,7 @@ class PathChecker {
     return cell == kOutside ? 0 : claim_.path.level[static_cast<std::size_t>(cell)];
   }
   [[nodiscard]] Anchor anchor(std::int32_t cell) const {
-    return cell == kOutside ? Anchor::exterior : claim_.anchors[static_cast<std::size_t>(cell)];
+    return cell == kOutside ? Anchor::exterior : anchors_[static_cast<std::size_t>(cell)];
   }
   [[nodiscard]] bool supported(const Facet& facet) const {
     const std::uint8_t beyond =
@@ -57,15 +58,19 @@ class PathChecker {
   const PathClaim& claim_;
   const FillPath& path_;
   std::size_t highest_;
+  std::vector<Anchor> anchors_;  // per cell
   FacetList facets_;
   FacetAreas areas_;
 };
 
 std::string PathChecker::sizes() {
   const std::size_t cells = claim_.complex.cells.size();
-  if (claim_.initial.size() != cells || claim_.anchors.size() != cells ||
-      claim_.path.level.size() != cells) {
-    return "labels, anchors or levels are not one per cell";
+  if (claim_.initial.size() != cells || claim_.path.level.size() != cells) {
+    return "labels or levels are not one per cell";
+  }
+  if (claim_.area_bits < 8 || claim_.area_bits > 50 || !(claim_.unit > 0) ||
+      !std::isfinite(claim_.unit)) {
+    return "the unit of areas is none";
   }
   if (highest_ == 0 || path_.breakpoints.size() + 1 != highest_) {
     return "labellings and breakpoints do not alternate";
@@ -80,15 +85,22 @@ std::string PathChecker::sizes() {
 }
 
 std::string PathChecker::anchors() {
-  for (std::size_t c = 0; c < claim_.anchors.size(); ++c) {
-    const bool interior = claim_.anchors[c] == Anchor::interior;
-    if (claim_.initial[c] == kInterior && !interior) {
-      return "cell " + std::to_string(c) + " has L* interior and is not fixed";
+  anchors_ = anchor_cells(claim_.complex, claim_.initial, claim_.mode);
+  for (const auto& [cells, anchor] : {std::pair{&claim_.guided.inside, Anchor::interior},
+                                      std::pair{&claim_.guided.outside, Anchor::exterior}}) {
+    for (const std::uint32_t cell : *cells) {
+      if (cell >= anchors_.size()) return "a guided cell is not there";
+      if (anchors_[cell] != Anchor::free && anchors_[cell] != anchor) {
+        return "cell " + std::to_string(cell) + " is fixed to both labels";
+      }
+      anchors_[cell] = anchor;
     }
-    if (interior && claim_.path.level[c] != highest_) {
+  }
+  for (std::size_t c = 0; c < anchors_.size(); ++c) {
+    if (anchors_[c] == Anchor::interior && claim_.path.level[c] != highest_) {
       return "cell " + std::to_string(c) + " is fixed interior and leaves";
     }
-    if (claim_.anchors[c] == Anchor::exterior && claim_.path.level[c] != 0) {
+    if (anchors_[c] == Anchor::exterior && claim_.path.level[c] != 0) {
       return "cell " + std::to_string(c) + " is fixed exterior and is not";
     }
   }
@@ -176,7 +188,7 @@ std::string PathChecker::conservation() {
     if (facets_[f].other != kOutside) add(f, facets_[f].other, cell, -flow);
   }
   for (std::size_t c = 0; c < balance.size(); ++c) {
-    if (claim_.anchors[c] != Anchor::free) continue;
+    if (anchors_[c] != Anchor::free) continue;
     const Balance& here = balance[c];
     const Wide drawn = here.out + here.to_sink;  // where its facets to the exterior are saturated
     bool kept = false;

@@ -20,8 +20,12 @@
 // every lambda of the range. (A breakpoint lies in two intervals: both neighbours cost the same
 // there, which is checked as well.)
 //
-// Areas, levels and flows are checked on the complex itself. With the solvers and the contraction
-// of anchored cells this shares nothing; quantised areas are those of energy.h.
+// (Facets between a point that the user has put inside and free cells are not supported: they cost
+// the same at every lambda, are drawn from as far as they go, and cancel.)
+//
+// Anchors, areas, levels and flows are checked on the complex itself. With the solvers and the
+// contraction of anchored cells this shares nothing; anchors of L* and quantised areas are those of
+// energy.h.
 #pragma once
 
 #include "cellocut/complex/tet_complex.h"
@@ -32,9 +36,10 @@ namespace cellocut {
 
 struct PathClaim {
   const TetComplex& complex;
-  const CellLabels& initial;           // L*
-  const std::vector<Anchor>& anchors;  // per cell
-  double unit;                         // length of one relative unit, in input units
+  const CellLabels& initial;  // L*
+  ExteriorMode mode;
+  const GuidedCells& guided;  // fixed by the user's points
+  double unit;                // length of one relative unit, in input units
   int area_bits;
   const CellPath& path;
 };
@@ -46,8 +51,9 @@ struct PathClaim {
 //   breakpoints   ascending within the range; both neighbours cost the same there
 //   capacities    |flow| <= capacity within each zone
 //   conservation  what each free cell draws and passes on, as above
-// Never throws for a wrong claim; a later check is not passed where an earlier one makes it
-// meaningless. O(cells + labellings).
+// Precondition: the complex is sound (as make_canonical leaves it). Never throws for a wrong claim
+// about it; a later check is not passed where an earlier one makes it meaningless. O(cells +
+// labellings).
 CertificateReport check_path(const PathClaim& claim);
 
 }  // namespace cellocut

@@ -55,12 +55,16 @@ class WideSearch {
 void WideSearch::find_terminals() {
   std::vector<Wide> out(problem_.node_count(), 0);
   for (std::size_t e = 0; e < problem_.edges.size(); ++e) {
+    const Wide flow = result_.edge_flow[e];
+    if (flow > problem_.edges[e].capacity || -flow > problem_.edges[e].capacity) {
+      throw CertificateError("solver '" + solver_.info().name + "': an edge carries too much");
+    }
     out[problem_.edges[e].from] += result_.edge_flow[e];
     out[problem_.edges[e].to] -= result_.edge_flow[e];
   }
   for (std::size_t i = 0; i < out.size(); ++i) {
     if (out[i] > problem_.to_source[i] || -out[i] > problem_.to_sink[i]) {
-      throw GuaranteeError("solver '" + solver_.info().name + "': the flow does not balance");
+      throw CertificateError("solver '" + solver_.info().name + "': the flow does not balance");
     }
     terminals_[i] = terminal_at(problem_.to_source[i], problem_.to_sink[i], out[i]);
   }
@@ -77,7 +81,8 @@ int WideSearch::least_shift(Wide bound) const {
     sum += std::min(capacity - flow, bound) + std::min(capacity + flow, bound);
   }
   int shift = 0;
-  while ((sum >> shift) >= Wide{kCapacityLimit}) ++shift;
+  // The solver judges the sum of what is left when each capacity is rounded down.
+  while ((sum >> shift) >= Wide{solver_.info().capacity_limit}) ++shift;
   return shift;
 }
 
@@ -102,8 +107,8 @@ Wide WideSearch::add_digit(Wide bound, int shift) {
   const CutResult cut = solver_.solve(scaled, SolveOptions{.observer = &observer_});
   ++result_.digits;
   if (cut.status != CutStatus::optimal || !cut.canonical) {
-    throw GuaranteeError("solver '" + solver_.info().name + "' returned no maximum flow: " +
-                         (cut.message.empty() ? "it is not exact" : cut.message));
+    throw CertificateError("solver '" + solver_.info().name + "' returned no maximum flow: " +
+                           (cut.message.empty() ? "it is not exact" : cut.message));
   }
   // What the minimum cut has in the bits that were left out.
   const CutLabels& side = cut.smallest_source_side;
@@ -180,7 +185,7 @@ void WideSearch::finish() {
   for (std::uint8_t& side : result_.largest_source_side) side ^= 1U;
   if (cost(result_.smallest_source_side) != result_.value ||
       cost(result_.largest_source_side) != result_.value) {
-    throw GuaranteeError("solver '" + solver_.info().name + "': the flow is not maximal");
+    throw CertificateError("solver '" + solver_.info().name + "': the flow is not maximal");
   }
 }
 

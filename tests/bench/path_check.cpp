@@ -1,0 +1,78 @@
+// A fill path against cuts of their own at random lambdas.
+//
+//   path_check RESOLUTION MESH...
+//
+// For each mesh 20 lambdas with denominator 1000, uniform in log lambda over [1, 1000]: the least
+// cost to the unit and the largest interior, cell for cell, by another solver than the path's.
+// Exits with 1 at a difference, or where a path's certificate is not valid.
+#include <fmt/core.h>
+
+#include <cmath>
+#include <cstdio>
+#include <exception>
+#include <random>
+
+#include "backends/backends.h"
+#include "cellocut/mesh/mesh_file.h"
+#include "cellocut/path/path_certificate.h"
+#include "cellocut/pipeline.h"
+#include "solvers/solvers.h"
+
+namespace {
+
+using namespace cellocut;
+
+bool agrees(const std::string& file, int resolution) {
+  RemeshOptions options;
+  options.resolution = resolution;
+  options.lambda_fill = {1, 1};
+  const RemeshResult result = pose_cut(read_mesh(file), options, *backends::make("cgal"));
+  const CellPath path =
+      find_cell_path(result.graph, result.facets, result.areas, result.initial_label, {1, 1},
+                     {1000, 1}, *solvers::make("push_relabel"), silent_observer());
+  const bool valid = check_path({.complex = result.complex,
+                                 .initial = result.initial_label,
+                                 .mode = options.exterior,
+                                 .guided = result.guided,
+                                 .unit = result.frame.unit,
+                                 .area_bits = options.area_bits,
+                                 .path = path})
+                         .valid;
+  std::mt19937_64 random(1);
+  int agreed = 0;
+  constexpr int kLambdas = 20;
+  for (int n = 0; n < kLambdas; ++n) {
+    const double exponent = static_cast<double>(random() >> 11) * 0x1p-53;
+    const Lambda lambda{static_cast<std::int64_t>(1000 * std::pow(1000.0, exponent)), 1000};
+    const CellGraph graph =
+        build_cell_graph(result.complex, result.facets, result.areas, result.initial_label,
+                         result.anchors, {lambda.p, lambda.q});
+    const CutResult cut = solvers::make("ibfs")->solve(graph.problem);
+    const std::size_t k = labelling_at(path.path, lambda);
+    const bool same = cost_at(path.path.areas[k], lambda) == Wide{cut.value} &&
+                      path.labels(k) == expand_labels(graph, cut.largest_source_side);
+    agreed += same ? 1 : 0;
+  }
+  fmt::print("{}: {} labellings, certificate {}, {} of {} lambdas agree\n", file, path.count(),
+             valid ? "valid" : "NOT VALID", agreed, kLambdas);
+  return valid && agreed == kLambdas;
+}
+
+}  // namespace
+
+int main(int count, char** arguments) {
+  if (count < 3) {
+    fmt::print(stderr, "path_check RESOLUTION MESH...\n");
+    return 2;
+  }
+  bool all = true;
+  try {
+    for (int n = 2; n < count; ++n) {
+      all = agrees(arguments[n], std::stoi(arguments[1])) && all;
+    }
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "{}\n", error.what());
+    return 1;
+  }
+  return all ? 0 : 1;
+}

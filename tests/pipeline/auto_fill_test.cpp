@@ -49,11 +49,13 @@ CellPath hand_made_path() {
 }
 std::vector<SheetSides> one_sided(const std::vector<double>& areas) {
   std::vector<SheetSides> sides;
+  sides.reserve(areas.size());
   for (const double area : areas) sides.push_back({area, 0});
   return sides;
 }
 std::vector<PathSolid> volumes(const std::vector<double>& values) {
   std::vector<PathSolid> solids;
+  solids.reserve(values.size());
   for (const double value : values) solids.push_back({value, 1, 1});
   return solids;
 }

@@ -10,7 +10,6 @@
 
 #include "backends/backends.h"
 #include "cellocut/base/stopwatch.h"
-#include "cellocut/path/path_certificate.h"
 #include "cellocut/pipeline.h"
 #include "cellocut_version.h"
 #include "solvers/solvers.h"
@@ -20,6 +19,7 @@
 #include "tools/pipeline_arguments.h"
 #include "tools/session.h"
 #ifdef CELLOCUT_WITH_VIZ
+#include "cellocut/mesh/unused_points.h"
 #include "cellocut/surface/interface.h"
 #include "tools/labelled_cells.h"
 #include "viz/vtp_file.h"
@@ -117,24 +117,6 @@ std::string encode_cells(const RemeshResult& result, const RemeshOptions& option
   return viz::encode_vtu(cells);
 }
 
-// Only the points that it uses.
-TriangleSoup compacted(TriangleSoup surface) {
-  constexpr std::uint32_t kUnused = 0xFFFFFFFFU;
-  std::vector<std::uint32_t> place(surface.points.size(), kUnused);
-  TriangleSoup result;
-  for (Triangle& t : surface.triangles) {
-    for (std::uint32_t& v : t) {
-      if (place[v] == kUnused) {
-        place[v] = static_cast<std::uint32_t>(result.points.size());
-        result.points.push_back(surface.points[v]);
-      }
-      v = place[v];
-    }
-  }
-  result.triangles = std::move(surface.triangles);
-  return result;
-}
-
 // The labellings with the longest intervals of log lambda, at most `most`, ascending.
 std::vector<std::size_t> longest_intervals(const std::vector<PathEntry>& entries,
                                            std::size_t most) {
@@ -162,8 +144,9 @@ void write_surfaces(const fs::path& folder, const RemeshResult& result, const Ce
     const std::string name = fmt::format("interface_{:04}.vtp", k);
     const std::vector<viz::FieldValue> fields{{"lambda_from", to_double(entries[k].from)},
                                               {"lambda_to", to_double(entries[k].to)}};
-    const TriangleSoup surface = compacted(
-        interface_triangles(result.complex, list_interface(result.complex, path.labels(k))));
+    const TriangleSoup interface =
+        interface_triangles(result.complex, list_interface(result.complex, path.labels(k)));
+    const TriangleSoup surface = drop_unused_points(interface.points, interface.triangles);
     write_text((folder / name).string(), viz::encode_vtp(surface, {}, fields));
     collection +=
         fmt::format("<DataSet timestep=\"{}\" file=\"{}\"/>\n", to_double(entries[k].from), name);
@@ -215,19 +198,11 @@ int run_path(PathArguments& a) {
   }
   observer.stage("path");
   Stopwatch stopwatch;
-  const CellPath path =
-      find_cell_path(result.graph, result.facets, result.areas, result.initial_label, range.first,
-                     range.last, *solver, observer);
+  const CellPath path = find_path(result, range.first, range.last, *solver, observer);
   result.stages.push_back({"path", stopwatch.seconds()});
   observer.stage("certificate");
   stopwatch.restart();
-  const CertificateReport certificate = check_path({.complex = result.complex,
-                                                    .initial = result.initial_label,
-                                                    .mode = options.exterior,
-                                                    .guided = result.guided,
-                                                    .unit = result.frame.unit,
-                                                    .area_bits = options.area_bits,
-                                                    .path = path});
+  const CertificateReport certificate = certify_path(result, options, path);
   result.stages.push_back({"certificate", stopwatch.seconds()});
   const std::vector<PathEntry> entries =
       path_entries(result, path, path_solids(result.complex, path));

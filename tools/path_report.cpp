@@ -7,6 +7,8 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "tools/report_json.h"
+
 namespace cellocut::tools {
 
 namespace {
@@ -115,16 +117,12 @@ Json path_json(const std::vector<PathEntry>& entries, const CellPath& path,
          {"components", entry.solid.components},
          {"certificate", certificate.valid}});
   }
-  Json checks = Json::array();
-  for (const CertificateCheck& check : certificate.checks) {
-    checks.push_back({{"name", check.name}, {"passed", check.passed}, {"detail", check.detail}});
-  }
   return {{"labellings", list},
           {"search",
            {{"solves", path.path.solves},
             {"solver_calls", path.path.digits},
             {"solved_nodes", path.path.solved_nodes}}},
-          {"certificate", {{"valid", certificate.valid}, {"checks", checks}}}};
+          {"certificate", certificate_json(certificate)}};
 }
 
 std::string path_csv(const std::vector<PathEntry>& entries) {

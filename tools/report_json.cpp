@@ -164,14 +164,6 @@ Json fill_choice_json(const FillChoice& choice) {
   return report;
 }
 
-Json certificate_json(const CertificateReport& certificate) {
-  Json checks = Json::array();
-  for (const CertificateCheck& check : certificate.checks) {
-    checks.push_back({{"name", check.name}, {"passed", check.passed}, {"detail", check.detail}});
-  }
-  return {{"valid", certificate.valid}, {"checks", checks}};
-}
-
 Json stages_json(const RemeshResult& result, const RunFacts& facts) {
   Json stages = Json::array();
   const auto add = [&](const std::string& name, double seconds) {
@@ -184,6 +176,14 @@ Json stages_json(const RemeshResult& result, const RunFacts& facts) {
 }
 
 }  // namespace
+
+Json certificate_json(const CertificateReport& certificate) {
+  Json checks = Json::array();
+  for (const CertificateCheck& check : certificate.checks) {
+    checks.push_back({{"name", check.name}, {"passed", check.passed}, {"detail", check.detail}});
+  }
+  return {{"valid", certificate.valid}, {"checks", checks}};
+}
 
 Json output_json(const SurfaceReport& report, const std::string& path) {
   Json components = Json::array();

@@ -21,6 +21,9 @@ struct RunFacts {
 // `output` of a report: path, validity, counts, components.
 nlohmann::ordered_json output_json(const SurfaceReport& report, const std::string& path);
 
+// `certificate` of a report: whether it is valid, and its checks.
+nlohmann::ordered_json certificate_json(const CertificateReport& certificate);
+
 // The report of a remesh.
 nlohmann::ordered_json remesh_json(const RemeshResult& result, const RemeshOptions& options,
                                    const TriangleSoup& input, const RunFacts& facts);

@@ -9,6 +9,7 @@
 #include "cellocut/field/distance_field.h"
 #include "cellocut/field/flood_sign.h"
 #include "cellocut/path/one_sided.h"
+#include "cellocut/path/path_certificate.h"
 #include "cellocut/surface/components.h"
 #include "cellocut/surface/interface.h"
 #include "cellocut/surface/iso_surface.h"
@@ -158,9 +159,7 @@ class LazyNearest {
 // Finds the fill path and poses the cut anew with the lambda that is chosen from it.
 void choose_lambda(RemeshResult& result, CutSolver& solver, LazyNearest& nearest_point,
                    Observer& observer) {
-  const CellPath path =
-      find_cell_path(result.graph, result.facets, result.areas, result.initial_label, kAutoFirst,
-                     kAutoLast, solver, observer);
+  const CellPath path = find_path(result, kAutoFirst, kAutoLast, solver, observer);
   const std::vector<SheetSides> sides =
       measure_sheet_sides(result.complex, result.facets, result.areas, result.initial_label, path,
                           nearest_point(), result.derived.epsilon * result.frame.unit, observer);
@@ -255,6 +254,23 @@ RemeshResult pose_cut(const TriangleSoup& input, const RemeshOptions& options,
                             result.anchors, result.derived.lambda_fill);
   });
   return result;
+}
+
+CellPath find_path(const RemeshResult& result, const Lambda& first, const Lambda& last,
+                   CutSolver& solver, Observer& observer) {
+  return find_cell_path(result.graph, result.facets, result.areas, result.initial_label, first,
+                        last, solver, observer);
+}
+
+CertificateReport certify_path(const RemeshResult& result, const RemeshOptions& options,
+                               const CellPath& path) {
+  return check_path({.complex = result.complex,
+                     .initial = result.initial_label,
+                     .mode = options.exterior,
+                     .guided = result.guided,
+                     .unit = result.frame.unit,
+                     .area_bits = options.area_bits,
+                     .path = path});
 }
 
 void adopt_cut(RemeshResult& result, const RemeshOptions& options, CutResult cut) {

@@ -149,6 +149,13 @@ RemeshResult pose_cut(const TriangleSoup& input, const RemeshOptions& options,
                       const Tetrahedralizer& tetrahedralizer,
                       Observer& observer = silent_observer());
 
+// The fill path of a result of pose_cut(), at whatever lambda it was posed, and the proof of it.
+// Errors: as find_cell_path().
+CellPath find_path(const RemeshResult& result, const Lambda& first, const Lambda& last,
+                   CutSolver& solver, Observer& observer = silent_observer());
+CertificateReport certify_path(const RemeshResult& result, const RemeshOptions& options,
+                               const CellPath& path);
+
 // Labels the cells of a result of pose_cut() by a cut of its problem, lifts the flow to the facets
 // and checks the certificate. May be called again, with another solver's cut.
 // Precondition: cut.canonical.

@@ -14,7 +14,6 @@
 
 #include "backends/backends.h"
 #include "cellocut/mesh/mesh_file.h"
-#include "cellocut/path/path_certificate.h"
 #include "cellocut/pipeline.h"
 #include "solvers/solvers.h"
 
@@ -27,17 +26,8 @@ bool agrees(const std::string& file, int resolution) {
   options.resolution = resolution;
   options.lambda_fill = {1, 1};
   const RemeshResult result = pose_cut(read_mesh(file), options, *backends::make("cgal"));
-  const CellPath path =
-      find_cell_path(result.graph, result.facets, result.areas, result.initial_label, {1, 1},
-                     {1000, 1}, *solvers::make("push_relabel"), silent_observer());
-  const bool valid = check_path({.complex = result.complex,
-                                 .initial = result.initial_label,
-                                 .mode = options.exterior,
-                                 .guided = result.guided,
-                                 .unit = result.frame.unit,
-                                 .area_bits = options.area_bits,
-                                 .path = path})
-                         .valid;
+  const CellPath path = find_path(result, {1, 1}, {1000, 1}, *solvers::make("push_relabel"));
+  const bool valid = certify_path(result, options, path).valid;
   std::mt19937_64 random(1);
   int agreed = 0;
   constexpr int kLambdas = 20;

@@ -30,9 +30,7 @@ void compare(const std::string& truth_file, const std::string& damaged_file, int
   options.lambda_fill = {1, 1};
   const TriangleSoup damaged = read_mesh(damaged_file);
   const RemeshResult result = pose_cut(damaged, options, *backends::make("cgal"));
-  const CellPath path =
-      find_cell_path(result.graph, result.facets, result.areas, result.initial_label, {1, 1},
-                     {1000, 1}, *solvers::make("push_relabel"), silent_observer());
+  const CellPath path = find_path(result, {1, 1}, {1000, 1}, *solvers::make("push_relabel"));
   const std::vector<PathSolid> solids = path_solids(result.complex, path);
   const std::vector<SheetSides> sides = measure_sheet_sides(
       result.complex, result.facets, result.areas, result.initial_label, path,

@@ -4,7 +4,6 @@
 #include <functional>
 #include <random>
 
-#include "cellocut/path/path_certificate.h"
 #include "pipeline_runs.h"
 #include "support/defective_meshes.h"
 
@@ -35,18 +34,11 @@ class CellPaths : public ::testing::TestWithParam<Case> {
     options_.exterior = GetParam().exterior;
     options_.lambda_fill = {1, 1};
     result_ = pose_cut(GetParam().soup, options_, *backends::make("cgal"));
-    path_ = find_cell_path(result_.graph, result_.facets, result_.areas, result_.initial_label,
-                           kFirst, kLast, *solvers::make("bk"), silent_observer());
+    path_ = find_path(result_, kFirst, kLast, *solvers::make("bk"));
   }
 
   [[nodiscard]] CertificateReport check(const CellPath& path) const {
-    return check_path({.complex = result_.complex,
-                       .initial = result_.initial_label,
-                       .mode = options_.exterior,
-                       .guided = result_.guided,
-                       .unit = result_.frame.unit,
-                       .area_bits = options_.area_bits,
-                       .path = path});
+    return certify_path(result_, options_, path);
   }
 
   RemeshOptions options_;
@@ -74,9 +66,7 @@ TEST_P(CellPaths, AgreeWithCutsAtRandomLambdas) {
 
 TEST_P(CellPaths, AreTheSameForEveryExactSolver) {
   for (const char* name : {"ibfs", "push_relabel"}) {
-    const CellPath other =
-        find_cell_path(result_.graph, result_.facets, result_.areas, result_.initial_label, kFirst,
-                       kLast, *solvers::make(name), silent_observer());
+    const CellPath other = find_path(result_, kFirst, kLast, *solvers::make(name));
     EXPECT_EQ(other.level, path_.level);
     EXPECT_EQ(other.path.areas, path_.path.areas);
     EXPECT_TRUE(other.path.breakpoints == path_.path.breakpoints);

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "cellocut/base/errors.h"
+#include "cellocut/complex/point_location.h"
 #include "cellocut/path/path_certificate.h"
 #include "pipeline_runs.h"
 #include "support/defective_meshes.h"
@@ -68,17 +69,8 @@ TEST(Guidance, AnInsidePointFillsWhatLambdaLeavesHollow) {
 TEST(Guidance, GoesWithThePathAndTheAutomaticWeight) {
   RemeshOptions options = guided_options({.inside = {{0, 0, 0}}, .outside = {{0, 0, 1.2}}}, 1);
   const RemeshResult result = pose_cut(test::sphere_with_hole(), options, *backends::make("cgal"));
-  const CellPath path =
-      find_cell_path(result.graph, result.facets, result.areas, result.initial_label, {1, 1},
-                     {1000, 1}, *solvers::make("bk"), silent_observer());
-  EXPECT_TRUE(check_path({.complex = result.complex,
-                          .initial = result.initial_label,
-                          .mode = options.exterior,
-                          .guided = result.guided,
-                          .unit = result.frame.unit,
-                          .area_bits = options.area_bits,
-                          .path = path})
-                  .valid);
+  const CellPath path = find_path(result, {1, 1}, {1000, 1}, *solvers::make("bk"));
+  EXPECT_TRUE(certify_path(result, options, path).valid);
   EXPECT_FALSE(check_path({.complex = result.complex,
                            .initial = result.initial_label,
                            .mode = options.exterior,

@@ -1,4 +1,4 @@
-// Which cell holds a point.
+// Which cells hold a point.
 #pragma once
 
 #include "cellocut/complex/tet_complex.h"
@@ -11,5 +11,9 @@ namespace cellocut {
 // the point, on its boundary too; kOutside where it lies beyond the hull. Steps grow with the
 // distance from `start`, in cells.
 std::int32_t locate_from(const TetComplex& complex, const Point3& point, std::uint32_t start);
+
+// All cells that hold the point, ascending, more than one where it lies on a facet, an edge or a
+// corner; none beyond the hull. Found as above.
+std::vector<std::uint32_t> cells_holding(const TetComplex& complex, const Point3& point);
 
 }  // namespace cellocut

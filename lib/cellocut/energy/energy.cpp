@@ -141,9 +141,12 @@ std::vector<Anchor> anchor_cells(const TetComplex& complex, const CellLabels& in
   return anchors;
 }
 
+bool is_supported(const Facet& facet, const CellLabels& initial) {
+  return initial[facet.cell] != (facet.other == kOutside ? kExterior : initial[facet.other]);
+}
+
 std::int64_t facet_weight(const Facet& facet, const CellLabels& initial, const Rational& lambda) {
-  const std::uint8_t beyond = facet.other == kOutside ? kExterior : initial[facet.other];
-  return initial[facet.cell] != beyond ? lambda.denominator : lambda.numerator;
+  return is_supported(facet, initial) ? lambda.denominator : lambda.numerator;
 }
 
 std::int64_t facet_capacity(const Facet& facet, std::int64_t quantised, const CellLabels& initial,

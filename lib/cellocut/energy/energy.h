@@ -69,6 +69,9 @@ enum class Anchor : std::uint8_t { free = 0, interior = 1, exterior = 2 };
 std::vector<Anchor> anchor_cells(const TetComplex& complex, const CellLabels& initial,
                                  ExteriorMode mode);
 
+// Whether L* differs across the facet; beyond the hull it is exterior.
+bool is_supported(const Facet& facet, const CellLabels& initial);
+
 // w_f times the denominator of lambda: the denominator where L* differs across the facet, the
 // numerator where it does not.
 std::int64_t facet_weight(const Facet& facet, const CellLabels& initial, const Rational& lambda);

@@ -5,22 +5,11 @@
 #include <algorithm>
 
 #include "cellocut/base/errors.h"
-#include "cellocut/base/predicates.h"
 #include "cellocut/complex/point_location.h"
 
 namespace cellocut {
 
 namespace {
-
-bool holds(const TetComplex& complex, std::uint32_t cell, const Point3& point) {
-  for (int k = 0; k < 4; ++k) {
-    std::array<const Point3*, 4> corner{};
-    for (int i = 0; i < 4; ++i) corner[i] = &complex.points[complex.cells[cell][i]];
-    corner[k] = &point;
-    if (orientation(*corner[0], *corner[1], *corner[2], *corner[3]) < 0) return false;
-  }
-  return true;
-}
 
 [[noreturn]] void refuse(const char* kind, const Point3& p, const char* why) {
   throw UsageError(fmt::format("--{} {},{},{}: {}", kind, p[0], p[1], p[2], why));
@@ -32,24 +21,6 @@ void sort_once(std::vector<std::uint32_t>& cells) {
 }
 
 }  // namespace
-
-std::vector<std::uint32_t> cells_holding(const TetComplex& complex, const Point3& point) {
-  if (complex.cells.empty()) return {};
-  const std::int32_t first = locate_from(complex, point, 0);
-  if (first == kOutside) return {};
-  // The cells around a facet, an edge or a corner are joined through facets that hold it too.
-  std::vector<std::uint32_t> cells{static_cast<std::uint32_t>(first)};
-  for (std::size_t n = 0; n < cells.size(); ++n) {
-    for (const std::int32_t other : complex.neighbours[cells[n]]) {
-      if (other == kOutside) continue;
-      const auto cell = static_cast<std::uint32_t>(other);
-      if (std::find(cells.begin(), cells.end(), cell) != cells.end()) continue;
-      if (holds(complex, cell, point)) cells.push_back(cell);
-    }
-  }
-  std::sort(cells.begin(), cells.end());
-  return cells;
-}
 
 GuidedCells guide_cells(const TetComplex& complex, const Guidance& guidance,
                         const CellLabels& initial, std::vector<Anchor>& anchors) {

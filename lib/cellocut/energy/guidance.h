@@ -26,13 +26,10 @@ struct GuidedCells {
   std::vector<std::uint32_t> outside;
 };
 
-// All cells that hold the point, more than one where it lies on a facet, an edge or a corner;
-// none beyond the hull. Precondition: the complex is Delaunay (point_location.h).
-std::vector<std::uint32_t> cells_holding(const TetComplex& complex, const Point3& point);
-
-// Fixes the cells and says which. An outside point beyond the hull is outside already. Errors:
-// UsageError that names the point: not finite; an inside point beyond the hull, or in a cell that
-// is fixed exterior; an outside point in a cell with L* interior; one of either kind in one cell.
+// Fixes the cells that hold the points (point_location.h) and says which. An outside point beyond
+// the hull is outside already. Errors: UsageError that names the point: not finite; an inside point
+// beyond the hull, or in a cell that is fixed exterior; an outside point in a cell with L*
+// interior; one of either kind in one cell.
 GuidedCells guide_cells(const TetComplex& complex, const Guidance& guidance,
                         const CellLabels& initial, std::vector<Anchor>& anchors);
 

@@ -33,7 +33,7 @@ class GridComponents {
             Observer& observer);
 
   // The component of a point of a leaf, or of a tile; kNone where it belongs to none. Components
-  // are named by one of their nodes, a number below node_count(). Only after join().
+  // are named by one of their nodes. Only after join().
   [[nodiscard]] std::uint32_t of_point(std::size_t leaf, std::uint32_t offset) const {
     const std::uint16_t local = local_[leaf][offset];
     return local == kNoLocal ? kNone : parent_[first_node_[leaf] + local];
@@ -45,12 +45,6 @@ class GridComponents {
   [[nodiscard]] std::uint32_t at(const openvdb::Coord& point) const {
     const std::uint32_t node = node_at(point);
     return node == kNone ? kNone : parent_[node];
-  }
-  [[nodiscard]] std::size_t node_count() const { return parent_.size(); }
-  // Whether the node names a component.
-  [[nodiscard]] bool names_component(std::uint32_t node) const {
-    return parent_[node] == node &&
-           (node < first_node_.back() || tile_member_[node - first_node_.back()] != 0);
   }
   [[nodiscard]] const std::vector<Tile>& tiles() const { return tiles_; }
 

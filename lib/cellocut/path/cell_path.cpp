@@ -16,8 +16,7 @@ ParametricProblem make_parametric_problem(const CellGraph& graph, const FacetLis
     const Facet& facet = facets[f];
     const bool hull = facet.other == kOutside;
     const std::int64_t area = areas.quantised[f];
-    const bool supported =
-        initial[facet.cell] != (hull ? kExterior : initial[static_cast<std::size_t>(facet.other)]);
+    const bool supported = is_supported(facet, initial);
     const std::int32_t a = graph.node_of_cell[facet.cell];
     const std::int32_t b = hull ? -1 : graph.node_of_cell[static_cast<std::size_t>(facet.other)];
     const std::uint8_t label_a = graph.decided[facet.cell];

@@ -7,9 +7,8 @@ namespace cellocut {
 
 namespace {
 
-// A flow on a part of the problem at a lambda, and the largest minimum there.
+// A flow on a part of the problem at a breakpoint, and the largest minimum there.
 struct ZoneProof {
-  Lambda lambda;
   std::vector<std::uint32_t> node;  // of the whole problem, on the source side of that minimum
   std::vector<std::uint32_t> edge;  // of the whole problem, with its flow
   std::vector<Wide> flow;
@@ -26,7 +25,9 @@ class PathSearch {
   // Finds the breakpoints within the open range, in ascending order. `before` and `after` are the
   // lines that are minimal next to its ends.
   void divide(const Piece& piece, const InterfaceAreas& before, const InterfaceAreas& after);
-  void add_breakpoint(const Piece& piece, const Lambda& lambda, WideCut cut);
+  // `before`: the areas of the largest minimum.
+  void add_breakpoint(const Piece& piece, const Lambda& lambda, const InterfaceAreas& before,
+                      WideCut cut);
 
   CutSolver& solver_;
   Observer& observer_;
@@ -42,13 +43,14 @@ WideCut PathSearch::solve(const Piece& piece, const Lambda& lambda) {
   return cut;
 }
 
-void PathSearch::add_breakpoint(const Piece& piece, const Lambda& lambda, WideCut cut) {
-  ZoneProof proof{lambda, {}, piece.edge, std::move(cut.edge_flow)};
+void PathSearch::add_breakpoint(const Piece& piece, const Lambda& lambda,
+                                const InterfaceAreas& before, WideCut cut) {
+  ZoneProof proof{{}, piece.edge, std::move(cut.edge_flow)};
   for (std::size_t i = 0; i < piece.node.size(); ++i) {
     if (cut.largest_source_side[i] != 0) proof.node.push_back(piece.node[i]);
   }
   path_.breakpoints.push_back(lambda);
-  path_.areas.push_back(areas_of(piece.problem, cut.largest_source_side));
+  path_.areas.push_back(before);
   proofs_.push_back(std::move(proof));
 }
 
@@ -57,15 +59,18 @@ void PathSearch::divide(const Piece& piece, const InterfaceAreas& before,
   if (before == after) return;
   const Lambda lambda = crossing(before, after);
   WideCut cut = solve(piece, lambda);
-  const bool corner = cut.value == cost_at(before, lambda);
+  if (cut.value == cost_at(before, lambda)) {
+    add_breakpoint(piece, lambda, before, std::move(cut));
+    return;
+  }
   const CutLabels none(piece.node.size(), 0);
   const CutLabels all(piece.node.size(), 1);
   const InterfaceAreas largest = areas_of(piece.problem, cut.largest_source_side);
   const InterfaceAreas smallest = areas_of(piece.problem, cut.smallest_source_side);
-  if (!corner) divide(contract(piece, cut.smallest_source_side, all), before, largest);
-  const Piece rest = corner ? Piece{} : contract(piece, none, cut.largest_source_side);
-  if (corner || !(largest == smallest)) add_breakpoint(piece, lambda, std::move(cut));
-  if (!corner) divide(rest, smallest, after);
+  divide(contract(piece, cut.smallest_source_side, all), before, largest);
+  const Piece rest = contract(piece, none, cut.largest_source_side);
+  if (!(largest == smallest)) add_breakpoint(piece, lambda, largest, std::move(cut));
+  divide(rest, smallest, after);
 }
 
 FillPath PathSearch::run(const ParametricProblem& problem, const Lambda& first,

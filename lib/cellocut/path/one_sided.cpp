@@ -30,9 +30,7 @@ std::vector<SheetSides> measure_sheet_sides(const TetComplex& complex, const Fac
   tbb::parallel_for(std::size_t{0}, facets.size(), [&](std::size_t f) {
     if (f % 4096 == 0) observer.check();
     const Facet& facet = facets[f];
-    const std::uint8_t beyond =
-        facet.other == kOutside ? kExterior : initial[static_cast<std::size_t>(facet.other)];
-    if (initial[facet.cell] == beyond) return;
+    if (!is_supported(facet, initial)) return;
     const auto corners = facet_corners(complex, facet.cell, facet.corner);
     const Point3 centre = (1.0 / 3) * (complex.points[corners[0]] + complex.points[corners[1]] +
                                        complex.points[corners[2]]);

@@ -45,11 +45,6 @@ class PathChecker {
   [[nodiscard]] Anchor anchor(std::int32_t cell) const {
     return cell == kOutside ? Anchor::exterior : anchors_[static_cast<std::size_t>(cell)];
   }
-  [[nodiscard]] bool supported(const Facet& facet) const {
-    const std::uint8_t beyond =
-        facet.other == kOutside ? kExterior : claim_.initial[static_cast<std::size_t>(facet.other)];
-    return claim_.initial[facet.cell] != beyond;
-  }
   [[nodiscard]] const Lambda& lambda_of(std::size_t level) const {
     if (level == 0) return path_.first;
     return level == highest_ ? path_.last : path_.breakpoints[level - 1];
@@ -113,8 +108,9 @@ std::string PathChecker::areas() {
   for (std::size_t f = 0; f < facets_.size(); ++f) {
     const std::size_t a = level(static_cast<std::int32_t>(facets_[f].cell));
     const std::size_t b = level(facets_[f].other);
-    std::int64_t InterfaceAreas::*kind =
-        supported(facets_[f]) ? &InterfaceAreas::supported : &InterfaceAreas::unsupported;
+    std::int64_t InterfaceAreas::*kind = is_supported(facets_[f], claim_.initial)
+                                             ? &InterfaceAreas::supported
+                                             : &InterfaceAreas::unsupported;
     change[std::min(a, b)].*kind += areas_.quantised[f];
     change[std::max(a, b)].*kind -= areas_.quantised[f];
   }
@@ -172,7 +168,7 @@ std::string PathChecker::conservation() {
     const Lambda& lambda = lambda_of(level(cell));
     const Wide area = areas_.quantised[f];
     if (anchor(other) == Anchor::interior) {
-      here.from_source += area * (supported(facets_[f]) ? lambda.q : lambda.p);
+      here.from_source += area * (is_supported(facets_[f], claim_.initial) ? lambda.q : lambda.p);
     } else if (anchor(other) == Anchor::exterior) {
       here.to_sink += area * lambda.p;
     } else if (level(cell) == level(other)) {

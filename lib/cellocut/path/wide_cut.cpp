@@ -1,7 +1,6 @@
 #include "cellocut/path/wide_cut.h"
 
 #include <algorithm>
-#include <stdexcept>
 #include <string>
 
 #include "cellocut/base/errors.h"

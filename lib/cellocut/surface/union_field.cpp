@@ -67,8 +67,6 @@ std::vector<openvdb::Coord> merge_blocks(const FieldTree& phi,
   return blocks;
 }
 
-constexpr float kLargestStored = kBand - 0x1p-15F;
-
 void store(FieldLeaf& leaf, std::uint32_t offset, float value) {
   if (std::fabs(value) < kBand) {
     leaf.setValueOn(offset, value);
@@ -172,6 +170,8 @@ OutsidePoints find_outside(const Blocks& blocks, const CellRegion& interior) {
 // a tile that is outside, not even across a corner.
 constexpr int kOpenSteps = 4;
 
+constexpr float kLargestStored = kBand - 0x1p-15F;
+
 }  // namespace
 
 UnionField compute_union_field(const SparseField& phi, const TetComplex& complex,
@@ -208,7 +208,7 @@ UnionField compute_union_field(const SparseField& phi, const TetComplex& complex
       ++(stays ? left_out : closed)[block];
       // Stored even beyond the band: what stays and what does not may be neighbours there.
       const float value = std::min(leaf.getValue(n), kLargestStored);
-      store(leaf, n, stays ? value : -value);
+      leaf.setValueOn(n, stays ? value : -value);
     }
   });
   for (LeafPointer& leaf : blocks.leaves) grid->tree.addLeaf(leaf.release());

@@ -2,6 +2,7 @@
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <memory>
@@ -9,11 +10,14 @@
 #include <set>
 
 #include "backends/backends.h"
+#include "cellocut/base/stopwatch.h"
 #include "cellocut_version.h"
 #include "solvers/solvers.h"
 #include "tools/commands.h"
 #include "tools/comparison.h"
+#include "tools/comparison_page.h"
 #include "tools/exit_code.h"
+#include "tools/html_report.h"
 #include "tools/pipeline_arguments.h"
 #include "tools/problem_io.h"
 #include "tools/session.h"
@@ -32,6 +36,7 @@ struct CompareArguments {
   CommonOptions common;
   std::vector<std::string> inputs;
   std::string folder;
+  std::string html;  // empty: no page
   std::string backends = "all";
   std::string solvers = "all";
   bool write_problems = false;
@@ -46,6 +51,9 @@ void add_arguments(CLI::App& app, CompareArguments& a) {
   app.add_option("-o,--output", a.folder,
                  "Folder for compare.csv, compare.json and a VTU per mesh and backend")
       ->required();
+  app.add_option("--html", a.html,
+                 "A page for a browser in one file: the table, bars of times, energies and stages, "
+                 "sections, parameters, and input and output in 3D");
   app.add_option("--backends", a.backends, "Names with commas between, or all")
       ->capture_default_str();
   app.add_option("--solvers", a.solvers,
@@ -93,9 +101,20 @@ std::size_t count_terminal_arcs(const CutProblem& problem) {
   return count;
 }
 
+std::string name_of(const std::string& input) {
+  return std::filesystem::path(input).filename().string();
+}
+
+std::size_t count_meshes(const std::vector<std::string>& inputs) {
+  return static_cast<std::size_t>(std::count_if(
+      inputs.begin(), inputs.end(),
+      [](const std::string& input) { return !problem_format_of_path(input).has_value(); }));
+}
+
 class Comparison {
  public:
-  Comparison(CompareArguments& a, TerminalObserver& observer) : a_(a), observer_(observer) {}
+  Comparison(CompareArguments& a, TerminalObserver& observer)
+      : a_(a), observer_(observer), page_(count_meshes(a.inputs)) {}
 
   void run() {
     for (const std::string& input : a_.inputs) {
@@ -110,6 +129,8 @@ class Comparison {
 
   [[nodiscard]] const std::vector<ComparedInstance>& instances() const { return instances_; }
   [[nodiscard]] const std::vector<ComparedBackends>& pairs() const { return pairs_; }
+  // What a page shows of meshes; empty where none was asked for.
+  [[nodiscard]] PageContent take_content() { return page_.take(); }
 
  private:
   ComparedInstance& compare(const std::string& input, const std::string& backend,
@@ -136,8 +157,18 @@ class Comparison {
       if (result.proxy.mesh.empty()) {
         throw GuaranteeError(input + ": no cell is interior, there is no problem to compare");
       }
-      certify(compare(input, backend, result.graph.problem), result);
-      write_files(input, backend, result);
+      ComparedInstance& instance = compare(input, backend, result.graph.problem);
+      const Stopwatch stopwatch;
+      certify(instance, result);
+      instance.stages = result.stages;
+      instance.stages.push_back({"certificates", stopwatch.seconds()});
+      instance.energy_unit =
+          result.frame.unit * result.frame.unit /
+          (result.areas.scale * static_cast<double>(result.derived.lambda_fill.denominator));
+      write_files(input, backend, result, soup);
+      if (!a_.html.empty() && results.empty()) {
+        page_.add_scene(name_of(input), backend, result, soup);
+      }
       results.emplace_back(backend, std::move(result));
     }
     for (std::size_t i = 1; i < results.size(); ++i) {
@@ -170,8 +201,8 @@ class Comparison {
     return (std::filesystem::path(a_.folder) / name).string();
   }
 
-  void write_files(const std::string& input, const std::string& backend,
-                   const RemeshResult& result) {
+  void write_files(const std::string& input, const std::string& backend, const RemeshResult& result,
+                   const TriangleSoup& soup) {
     const ComparedInstance& instance = instances_.back();
     if (a_.write_problems) {
       const std::string path = output(input, "_" + backend + ".max");
@@ -199,8 +230,10 @@ class Comparison {
     }
     cells.arrays.push_back({"disagree", std::move(disagree)});
     write_text(output(input, "_" + backend + ".vtu"), encode_vtu(cells));
+    if (!a_.html.empty()) page_.add_section(instances_.size() - 1, cells, soup, name_of(input));
 #else
     (void)instance;
+    (void)soup;
 #endif
   }
 
@@ -209,7 +242,34 @@ class Comparison {
   std::vector<ComparedInstance> instances_;
   std::vector<ComparedBackends> pairs_;
   std::set<std::string> names_;
+  ComparisonPage page_;
 };
+
+// What was asked for, as far as it can change a number of the report.
+Json parameters_json(const CompareArguments& a, const ThreadLimit& limit) {
+  const RemeshOptions& options = a.pipeline.options;
+  Json json{{"resolution", options.resolution},
+            {"epsilon", "max(1/512, 1/resolution)"},
+            {"decimate", options.decimate},
+            {"lambda_fill", to_string(options.lambda_fill)},
+            {"support", a.pipeline.support},
+            {"exterior", a.pipeline.exterior},
+            {"points_inside", options.guidance.inside.size()},
+            {"points_outside", options.guidance.outside.size()},
+            {"area_bits", options.area_bits},
+            {"thickening", options.thickening},
+            {"unary", options.unary},
+            {"reduce", a.comparison.reduce},
+            {"crossover", a.comparison.relaxation.crossover},
+            {"time_limit", a.comparison.seconds_limit},
+            {"repeats", a.comparison.repeats},
+            {"threads", limit.threads()}};
+  if (options.epsilon) json["epsilon"] = *options.epsilon;
+  if (options.epsilon_absolute) {
+    json["epsilon"] = fmt::format("{} input units", *options.epsilon_absolute);
+  }
+  return json;
+}
 
 int run_compare(CompareArguments& a) {
   a.pipeline.complete();
@@ -229,7 +289,7 @@ int run_compare(CompareArguments& a) {
   const std::filesystem::path folder(a.folder);
   const std::string csv = (folder / "compare.csv").string();
   const std::string json = (folder / "compare.json").string();
-  require_writable({csv, json, a.common.json});
+  require_writable({csv, json, a.common.json, a.html});
   const ThreadLimit limit(a.common.threads);
   TerminalObserver observer(a.common);
   a.comparison.observer = &observer;
@@ -237,12 +297,15 @@ int run_compare(CompareArguments& a) {
   Comparison comparison(a, observer);
   comparison.run();
   observer.clear();
-  Json report{{"version", kCellocutVersion}, {"repeats", a.comparison.repeats}};
+  Json report{{"version", kCellocutVersion},
+              {"repeats", a.comparison.repeats},
+              {"parameters", parameters_json(a, limit)}};
   report.update(comparison_json(comparison.instances(), comparison.pairs()));
   write_text(csv, comparison_csv(comparison.instances()));
   write_text(json, report.dump(2) + "\n");
   if (!a.common.json.empty()) write_text(a.common.json, report.dump(2) + "\n");
-  if (!a.common.quiet && a.common.json != "-") {
+  if (!a.html.empty()) write_text(a.html, html_report(report, comparison.take_content()));
+  if (!a.common.quiet && a.common.json != "-" && a.html != "-") {
     fmt::print("{}", comparison_table(comparison.instances(), comparison.pairs()));
   }
   for (const ComparedInstance& instance : comparison.instances()) {

@@ -80,7 +80,7 @@ Json times_json(const std::vector<double>& seconds) {
           {"all", seconds}};
 }
 
-Json run_json(const SolverRun& run) {
+Json run_json(const SolverRun& run, double energy_unit) {
   Json row{{"solver", run.info.name},
            {"exact", run.info.exact},
            {"outside", run.info.outside},
@@ -92,6 +92,10 @@ Json run_json(const SolverRun& run) {
   row["value"] = run.result.value;
   row["lower_bound"] = run.result.lower_bound;
   row["gap"] = run.result.value - run.result.lower_bound;
+  if (energy_unit > 0) {
+    row["energy"] = static_cast<double>(run.result.value) * energy_unit;
+    row["energy_lower_bound"] = static_cast<double>(run.result.lower_bound) * energy_unit;
+  }
   row["canonical"] = run.result.canonical;
   row["stop"] = run.result.stop;
   row["build_seconds"] = times_json(run.build_seconds);
@@ -166,11 +170,19 @@ Json comparison_json(const std::vector<ComparedInstance>& instances,
   report["instances"] = Json::array();
   for (const ComparedInstance& instance : instances) {
     Json runs = Json::array();
-    for (const SolverRun& run : instance.runs) runs.push_back(run_json(run));
+    for (const SolverRun& run : instance.runs) {
+      runs.push_back(run_json(run, instance.energy_unit));
+    }
+    Json stages = Json::array();
+    for (const StageTime& stage : instance.stages) {
+      stages.push_back({{"name", stage.name}, {"seconds", stage.seconds}});
+    }
     report["instances"].push_back({{"input", instance.input},
                                    {"backend", instance.backend},
                                    {"statistics", statistics_json(instance.statistics)},
+                                   {"energy_unit", instance.energy_unit},
                                    {"runs", runs},
+                                   {"stages", stages},
                                    {"defect", instance.defect}});
   }
   report["backends"] = Json::array();

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cellocut/cut/problem_statistics.h"
+#include "cellocut/pipeline.h"
 #include "solvers/comparison.h"
 
 namespace cellocut::tools {
@@ -20,6 +21,10 @@ struct ComparedInstance {
   ProblemStatistics statistics;
   std::vector<solvers::SolverRun> runs;
   std::string defect;  // disagreement or a failed certificate; empty where all is well
+  // Of a mesh, up to the problem, and the certificates of all solvers together.
+  std::vector<StageTime> stages;
+  double energy_unit =
+      0;  // squared input units that one unit of the value is; 0 for a problem file
 };
 
 // Between two backends on one mesh.

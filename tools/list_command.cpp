@@ -10,6 +10,7 @@
 #include "tools/commands.h"
 #include "tools/exit_code.h"
 #include "tools/session.h"
+#include "web/viewer.h"
 
 namespace cellocut::tools {
 
@@ -55,6 +56,31 @@ void print_rows(const char* title, const Json& rows) {
   }
 }
 
+// What of the page of `compare --html` is built.
+Json describe_report() {
+  const web::Viewer& viewer = web::viewer();
+  Json row{{"name", "3D view"}, {"built", viewer.built()}};
+  if (viewer.built()) {
+    row["summary"] = viewer.library;
+    row["licence"] = viewer.licence;
+  } else {
+    row["reason"] = viewer.not_built;
+  }
+  return Json::array({row});
+}
+
+void print_report(const Json& rows) {
+  fmt::print("report\n");
+  for (const Json& row : rows) {
+    const std::string what =
+        row["built"].get<bool>()
+            ? row["summary"].get<std::string>() + ", " + row["licence"].get<std::string>()
+            : "not built in: " + row["reason"].get<std::string>() +
+                  "; compare --html leaves it out";
+    fmt::print("  {:<16} {}\n", row["name"].get<std::string>(), what);
+  }
+}
+
 }  // namespace
 
 Command add_list(CLI::App& program) {
@@ -65,15 +91,18 @@ Command add_list(CLI::App& program) {
   const auto run = [common] {
     const Json report{
         {"backends", describe(backends::registered(), [](Json&, const TetrahedralizerInfo&) {})},
-        {"solvers", describe(solvers::registered(), [](Json& row, const SolverInfo& info) {
-           row["exact"] = info.exact;
-           row["outside"] = info.outside;
-           row["capacity_limit"] = info.capacity_limit;
-         })}};
+        {"solvers", describe(solvers::registered(),
+                             [](Json& row, const SolverInfo& info) {
+                               row["exact"] = info.exact;
+                               row["outside"] = info.outside;
+                               row["capacity_limit"] = info.capacity_limit;
+                             })},
+        {"report", describe_report()}};
     if (!common->json.empty()) write_text(common->json, report.dump(2) + "\n");
     if (common->json != "-") {
       print_rows("tetrahedralization backends", report["backends"]);
       print_rows("minimum-cut solvers", report["solvers"]);
+      print_report(report["report"]);
     }
     return static_cast<int>(kDone);
   };

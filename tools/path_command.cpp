@@ -111,9 +111,12 @@ std::string encode_cells(const RemeshResult& result, const RemeshOptions& option
     return field.name == "lambda_fill" || field.name == "cut_value" ||
            field.name == "cut_lower_bound" || field.name == "energy";
   });
-  cells.arrays.push_back({"label_path", largest_interior_lambda(path)});
-  cells.fields.push_back(
-      {"legend_label_path", std::string("the largest lambda_fill at which the cell is interior")});
+  // Where labellings are not nested a cell may leave and come back.
+  if (path.path.nested) {
+    cells.arrays.push_back({"label_path", largest_interior_lambda(path)});
+    cells.fields.push_back({"legend_label_path",
+                            std::string("the largest lambda_fill at which the cell is interior")});
+  }
   return viz::encode_vtu(cells);
 }
 
@@ -213,6 +216,7 @@ int run_path(PathArguments& a) {
                {{"resolution", options.resolution},
                 {"epsilon", result.derived.epsilon},
                 {"area_bits", options.area_bits},
+                {"support", options.support == SupportRule::labels ? "labels" : "facets"},
                 {"backend", a.backend},
                 {"solver", a.solver},
                 {"range", {to_double(range.first), to_double(range.last)}}}}};
@@ -225,6 +229,7 @@ int run_path(PathArguments& a) {
                       {"nodes", result.graph.problem.node_count()},
                       {"edges", result.graph.problem.edges.size()}};
   report["area_quantum"] = 1 / result.areas.scale;
+  report["nested"] = path.path.nested;
   report.update(path_json(entries, path, certificate));
   observer.stage("files");
   std::error_code error;

@@ -75,6 +75,12 @@ void PipelineArguments::add_to(CLI::App& app, LambdaOption lambda_option) {
                  "Ablation: phi is the flood-signed distance, no offset");
     app.add_flag("--no-unary", no_unary, "Ablation: no cell is anchored interior");
   }
+  app.add_option("--support", support,
+                 "What of a facet between cells has weight 1: all of it where the initial labels "
+                 "differ (labels), or the part of its area that lies in the slab or within half a "
+                 "grid step of it (facets)")
+      ->check(CLI::IsMember({"labels", "facets"}))
+      ->capture_default_str();
   app.add_option("--exterior", exterior,
                  "What is fixed exterior: the unbounded region, or every hull cell that is not "
                  "initially interior")
@@ -101,6 +107,7 @@ void PipelineArguments::complete() {
   }
   options.guidance.inside = read_points("--inside", inside);
   options.guidance.outside = read_points("--outside", outside);
+  options.support = support == "labels" ? SupportRule::labels : SupportRule::facets;
   options.exterior = exterior == "unbounded" ? ExteriorMode::unbounded : ExteriorMode::hull_cells;
   options.thickening = !no_thickening;
   options.unary = !no_unary;

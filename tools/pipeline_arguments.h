@@ -22,6 +22,7 @@ enum class LambdaOption {
 struct PipelineArguments {
   RemeshOptions options;
   std::string lambda = "20";
+  std::string support = "labels";
   std::string exterior = "unbounded";
   std::vector<std::string> inside;  // points, or files of them
   std::vector<std::string> outside;

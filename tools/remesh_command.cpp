@@ -20,6 +20,7 @@
 #ifdef CELLOCUT_WITH_VIZ
 #include "cellocut_version.h"
 #include "tools/labelled_cells.h"
+#include "tools/stage_files.h"
 #include "viz/vtp_file.h"
 #endif
 
@@ -43,6 +44,7 @@ struct RemeshArguments {
   std::string keep_invalid;
   std::string problem;
   std::string stage_surfaces;
+  std::string stages;
   PipelineArguments pipeline;
 
   [[nodiscard]] RemeshOptions& options() { return pipeline.options; }
@@ -107,6 +109,10 @@ void add_arguments(CLI::App& app, RemeshArguments& a) {
 #ifdef CELLOCUT_WITH_VIZ
   app.add_option("--vtp", a.vtp, "The surface with its provenance for ParaView");
   app.add_option("--vtu", a.vtu, "Labelled tetrahedra for ParaView");
+  app.add_option(
+      "--save-stages", a.stages,
+      "Folder for every stage as files for ParaView: the input with its defects, the "
+      "proxy, the labelled cells, the facets of the cut, the surface; run.vtm opens all");
 #endif
   a.common.add_to(app);
 }
@@ -149,7 +155,7 @@ void complete_options(RemeshArguments& a) {
                      "or --output-format");
   }
   a.options().output_format = *format;
-  a.options().provenance = a.provenance || !a.vtp.empty();
+  a.options().provenance = a.provenance || !a.vtp.empty() || !a.stages.empty();
   check_vertex_values(a);
   a.options().validate();
   a.options().relaxation.validate();
@@ -303,6 +309,9 @@ int run_remesh(RemeshArguments& a) {
   observer.stage("write");
   const auto [code, problem] = judge(result, a);
 #ifdef CELLOCUT_WITH_VIZ
+  if (!a.stages.empty()) {
+    write_stage_files(result, a.options(), input, a.solver, a.stages, observer);
+  }
   if (!a.vtu.empty()) write_text(a.vtu, encode_vtu(labelled_cells(result, a.options(), a.solver)));
 #endif
   if (!a.problem.empty() && !result.graph.decided.empty()) {

@@ -89,6 +89,7 @@ Json parameters_json(const RemeshResult& result, const RemeshOptions& options) {
           {"unit", result.frame.unit},
           {"decimate", options.decimate},
           {"lambda_fill", to_string(result.derived.lambda_fill)},
+          {"support", options.support == SupportRule::labels ? "labels" : "facets"},
           {"exterior", options.exterior == ExteriorMode::unbounded ? "unbounded" : "hull-cells"},
           {"area_bits", options.area_bits},
           {"cut", options.cut == CutChoice::largest ? "largest" : "smallest"},

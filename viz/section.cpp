@@ -38,9 +38,11 @@ struct Layout {
   double drawing_height = 0;
   double page_width = 0;
   double page_height = 0;
+  double title_height = 0;
   double footer_top = 0;
   double bar_length = 0;
   std::string bar_text;
+  std::string title;
   std::string caption;
   bool caption_below_bar = false;
   std::vector<LegendEntry> legend;
@@ -96,30 +98,36 @@ std::vector<LegendEntry> legend_of(const Scene& scene) {
   return legend;
 }
 
-Layout lay_out(const Scene& scene, const Plane& plane, const SectionStyle& style) {
+// `extent`: what is shown, of this scene and those of planes along it; `longest`: the longest edge
+// of all scenes, which sets the scale.
+Layout lay_out(const Scene& scene, const Extent& extent, double longest, const SectionPanel& panel,
+               const SectionStyle& style) {
   Layout page;
   const double width = style.width;
   page.unit = width / 1200;
   page.font = std::max(9.0, 20 * page.unit);
   page.margin = std::max(4.0, 0.025 * width);
   // A straight line has no height: give it some room.
-  const double least = 0.05 * scene.extent.longest();
-  page.scale = width / scene.extent.longest();
-  page.drawing_width = page.scale * std::max(scene.extent.edge(0), least);
-  page.drawing_height = page.scale * std::max(scene.extent.edge(1), least);
-  page.bar_length = nice_length(0.25 * scene.extent.longest());
+  const double least = 0.05 * longest;
+  page.scale = width / longest;
+  page.drawing_width = page.scale * std::max(extent.edge(0), least);
+  page.drawing_height = page.scale * std::max(extent.edge(1), least);
+  page.bar_length = nice_length(0.25 * longest);
   page.bar_text = fmt::format("{:.4g}", page.bar_length);
-  page.caption = plane_equation(plane);
+  page.title = panel.title;
+  page.title_height = page.title.empty() ? 0 : 1.6 * page.font;
+  page.caption = plane_equation(panel.plane);
   page.legend = legend_of(scene);
 
   const double inner = std::max(page.drawing_width, 0.5 * width);
   page.page_width = std::ceil(inner + 2 * page.margin);
-  const double centre_x = 0.5 * (scene.extent.low[0] + scene.extent.high[0]);
-  const double centre_y = 0.5 * (scene.extent.low[1] + scene.extent.high[1]);
-  page.origin = {0.5 * page.page_width - page.scale * centre_x,
-                 page.margin + 0.5 * page.drawing_height + page.scale * centre_y};
+  const double centre_x = 0.5 * (extent.low[0] + extent.high[0]);
+  const double centre_y = 0.5 * (extent.low[1] + extent.high[1]);
+  page.origin = {
+      0.5 * page.page_width - page.scale * centre_x,
+      page.margin + page.title_height + 0.5 * page.drawing_height + page.scale * centre_y};
 
-  page.footer_top = page.margin + page.drawing_height + page.margin;
+  page.footer_top = page.margin + page.title_height + page.drawing_height + page.margin;
   const double row = 1.6 * page.font;
   const double bar =
       page.scale * page.bar_length + text_width(page.bar_text, page.font) + page.font;
@@ -146,8 +154,6 @@ class Painter {
   Painter(cairo_t* cr, const Layout& page) : cr_(cr), page_(page) {}
 
   void paint(const Scene& scene, const SectionStyle& style) {
-    set(Colour{1, 1, 1});
-    cairo_paint(cr_);
     cairo_set_line_join(cr_, CAIRO_LINE_JOIN_ROUND);
     cairo_set_line_cap(cr_, CAIRO_LINE_CAP_ROUND);
     cairo_set_fill_rule(cr_, CAIRO_FILL_RULE_EVEN_ODD);
@@ -160,6 +166,7 @@ class Painter {
       paint_surface(layer, covered);
       covered = true;
     }
+    if (!page_.title.empty()) text(page_.margin, page_.margin + 0.6 * page_.font, page_.title);
     paint_scale_bar_and_caption();
     paint_legend();
   }
@@ -197,6 +204,7 @@ class Painter {
   void paint_cells(const CellLayer& layer) {
     const std::vector<Category>& categories = layer.categories;
     std::vector<std::size_t> counts;
+    counts.reserve(categories.size());
     for (const Category& category : categories) {
       counts.push_back(static_cast<std::size_t>(
           std::count(layer.values.begin(), layer.values.end(), category.value)));
@@ -324,30 +332,100 @@ void check(cairo_status_t status) {
   }
 }
 
+// Where panels go on a sheet: rows as high and columns as wide as their largest page.
+struct Sheet {
+  std::vector<Layout> pages;
+  std::vector<Point2> places;
+  double width = 0;
+  double height = 0;
+};
+
+Sheet lay_out_sheet(const std::vector<SectionPanel>& panels, const std::vector<Scene>& scenes,
+                    std::size_t columns, const SectionStyle& style) {
+  // What scenes of parallel planes show, together.
+  std::vector<Extent> extents(scenes.size());
+  double longest = 0;
+  for (std::size_t i = 0; i < scenes.size(); ++i) {
+    for (std::size_t j = 0; j < scenes.size(); ++j) {
+      if (scenes[j].extent.empty() || panels[i].plane.normal != panels[j].plane.normal) continue;
+      extents[i].add({scenes[j].extent.low, scenes[j].extent.high});
+    }
+    if (!extents[i].empty()) longest = std::max(longest, extents[i].longest());
+  }
+  for (Extent& extent : extents) {
+    if (extent.empty()) extent.add({{0, 0}, {longest, 0}});
+  }
+  Sheet sheet;
+  std::vector<double> widths(std::min(columns, panels.size()), 0.0);
+  std::vector<double> heights((panels.size() + columns - 1) / columns, 0.0);
+  for (std::size_t i = 0; i < panels.size(); ++i) {
+    sheet.pages.push_back(lay_out(scenes[i], extents[i], longest, panels[i], style));
+    double& width = widths[i % columns];
+    double& height = heights[i / columns];
+    width = std::max(width, sheet.pages.back().page_width);
+    height = std::max(height, sheet.pages.back().page_height);
+  }
+  for (std::size_t row = 0, i = 0; row < heights.size(); ++row) {
+    double x = 0;
+    for (std::size_t column = 0; column < columns && i < panels.size(); ++column, ++i) {
+      sheet.places.push_back({x, sheet.height});
+      x += widths[column];
+      sheet.width = std::max(sheet.width, x);
+    }
+    sheet.height += heights[row];
+  }
+  return sheet;
+}
+
 }  // namespace
 
 std::string draw_section(const SectionLayers& layers, const Plane& plane, const SectionStyle& style,
                          PictureFormat format) {
+  return draw_sections({{layers, plane, ""}}, 1, style, format);
+}
+
+std::string draw_sections(const std::vector<SectionPanel>& panels, int columns,
+                          const SectionStyle& style, PictureFormat format) {
   constexpr int kLeastWidth = 64;
-  constexpr int kMostWidth = 16384;  // cairo's images end at 32767 with the footer
+  constexpr int kMostWidth = 16384;
+  constexpr double kMostPixels = 32767;  // where cairo's images end
   if (style.width < kLeastWidth || style.width > kMostWidth) {
     throw UsageError(fmt::format("a picture is {} to {} pixels wide, not {}", kLeastWidth,
                                  kMostWidth, style.width));
   }
-  const Scene scene = make_scene(layers, plane);
-  const Layout page = lay_out(scene, plane, style);
+  std::vector<Scene> scenes;
+  scenes.reserve(panels.size());
+  for (const SectionPanel& panel : panels) scenes.push_back(make_scene(panel.layers, panel.plane));
+  if (std::all_of(scenes.begin(), scenes.end(),
+                  [](const Scene& scene) { return scene.extent.empty(); })) {
+    fail_missed(panels.front().layers, panels.front().plane);
+  }
+  const Sheet sheet = lay_out_sheet(panels, scenes, static_cast<std::size_t>(columns), style);
+  if (std::max(sheet.width, sheet.height) > kMostPixels) {
+    throw UsageError(
+        fmt::format("a picture of {:.0f} x {:.0f} pixels is too large: ask for fewer "
+                    "panels or a smaller width",
+                    sheet.width, sheet.height));
+  }
   std::string bytes;
   CairoSurface surface;
   if (format == PictureFormat::png) {
-    surface.reset(cairo_image_surface_create(CAIRO_FORMAT_RGB24, static_cast<int>(page.page_width),
-                                             static_cast<int>(page.page_height)));
+    surface.reset(cairo_image_surface_create(CAIRO_FORMAT_RGB24, static_cast<int>(sheet.width),
+                                             static_cast<int>(sheet.height)));
   } else {
-    surface.reset(cairo_svg_surface_create_for_stream(append_bytes, &bytes, page.page_width,
-                                                      page.page_height));
+    surface.reset(
+        cairo_svg_surface_create_for_stream(append_bytes, &bytes, sheet.width, sheet.height));
     cairo_svg_surface_set_document_unit(surface.get(), CAIRO_SVG_UNIT_PX);
   }
   const CairoContext cr(cairo_create(surface.get()));
-  Painter(cr.get(), page).paint(scene, style);
+  cairo_set_source_rgb(cr.get(), 1, 1, 1);
+  cairo_paint(cr.get());
+  for (std::size_t i = 0; i < panels.size(); ++i) {
+    cairo_save(cr.get());
+    cairo_translate(cr.get(), sheet.places[i][0], sheet.places[i][1]);
+    Painter(cr.get(), sheet.pages[i]).paint(scenes[i], style);
+    cairo_restore(cr.get());
+  }
   check(cairo_status(cr.get()));
   if (format == PictureFormat::png) {
     check(cairo_surface_write_to_png_stream(surface.get(), append_bytes, &bytes));

@@ -1,5 +1,7 @@
 #include "viz/section_colours.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -61,6 +63,40 @@ std::vector<Category> categories_of(const std::string& array_name,
   std::sort(categories.begin(), categories.end(),
             [](const Category& a, const Category& b) { return a.value < b.value; });
   return categories;
+}
+
+std::vector<Category> bands_of(const std::vector<double>& borders) {
+  const std::size_t count = borders.size() - 1;
+  const auto mixed = [](const Colour& a, const Colour& b, double t) {
+    return Colour{a.red + t * (b.red - a.red), a.green + t * (b.green - a.green),
+                  a.blue + t * (b.blue - a.blue)};
+  };
+  constexpr Colour kLow{0.950, 0.930, 0.800};
+  constexpr Colour kMiddle{0.240, 0.600, 0.560};
+  constexpr Colour kHigh{0.190, 0.080, 0.330};
+  constexpr Colour kNegative{0.060, 0.290, 0.600};
+  constexpr Colour kPositive{0.700, 0.120, 0.130};
+  const auto zero = static_cast<std::size_t>(std::lower_bound(borders.begin(), borders.end(), 0.0) -
+                                             borders.begin());
+  const bool diverging = zero > 0 && zero < count && borders[zero] == 0;
+  std::vector<Category> bands;
+  bands.reserve(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    Colour colour;
+    if (diverging) {
+      const bool below = i < zero;
+      const std::size_t steps = below ? zero - i : i - zero + 1;
+      const std::size_t most = below ? zero : count - zero;
+      colour = mixed(kPale, below ? kNegative : kPositive,
+                     static_cast<double>(steps) / static_cast<double>(most));
+    } else {
+      const double t = count > 1 ? static_cast<double>(i) / static_cast<double>(count - 1) : 0.5;
+      colour = t < 0.5 ? mixed(kLow, kMiddle, 2 * t) : mixed(kMiddle, kHigh, 2 * t - 1);
+    }
+    bands.push_back({static_cast<std::int32_t>(i),
+                     fmt::format("{:.3g} to {:.3g}", borders[i], borders[i + 1]), colour});
+  }
+  return bands;
 }
 
 Colour surface_line_colour(std::size_t i) {

@@ -28,6 +28,10 @@ struct Category {
 std::vector<Category> categories_of(const std::string& array_name,
                                     const std::vector<std::int32_t>& present);
 
+// The bands between `borders` (ascending, at least two): from pale to dark, or, with 0 among the
+// inner borders, blue below it and red above. Values are 0, 1, ... by band.
+std::vector<Category> bands_of(const std::vector<double>& borders);
+
 // Colours of the lines and fills of the i-th surface.
 Colour surface_line_colour(std::size_t i);
 Colour surface_fill_colour(std::size_t i);

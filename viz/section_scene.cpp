@@ -12,42 +12,84 @@ namespace cellocut::viz {
 
 namespace {
 
-std::string names_of_categorical_arrays(const LabelledCells& cells) {
+std::string names_of_arrays(const LabelledCells& cells) {
   std::string names;
-  for (const CellArray& array : cells.arrays) {
-    if (std::holds_alternative<std::vector<float>>(array.values)) continue;
-    if (std::holds_alternative<std::vector<double>>(array.values)) continue;
-    names += (names.empty() ? "" : ", ") + array.name;
-  }
+  for (const CellArray& array : cells.arrays) names += (names.empty() ? "" : ", ") + array.name;
   return names.empty() ? "none" : names;
 }
 
-std::vector<std::int32_t> values_of_cells(const LabelledCells& cells, const std::string& name,
-                                          const std::vector<std::uint32_t>& which) {
-  const std::string there = "; arrays of categories: " + names_of_categorical_arrays(cells);
+// Borders of bands that hold about as many values each; values that are not finite have no say.
+template <class Value>
+std::vector<double> band_borders(const std::vector<Value>& values) {
+  constexpr std::size_t kBands = 8;
+  std::vector<double> sorted;
+  sorted.reserve(values.size());
+  for (const Value value : values) {
+    if (std::isfinite(value)) sorted.push_back(static_cast<double>(value));
+  }
+  if (sorted.empty()) return {0, 0};
+  std::sort(sorted.begin(), sorted.end());
+  std::vector<double> borders;
+  for (std::size_t i = 0; i <= kBands; ++i) {
+    borders.push_back(sorted[i * (sorted.size() - 1) / kBands]);
+  }
+  borders.erase(std::unique(borders.begin(), borders.end()), borders.end());
+  if (borders.size() < kBands / 2) {  // few values, most of them the same: bands of one width
+    const double low = sorted.front();
+    const double high = sorted.back();
+    borders.clear();
+    for (std::size_t i = 0; i <= kBands; ++i) {
+      borders.push_back(low + (high - low) * static_cast<double>(i) / kBands);
+    }
+  }
+  if (borders.front() < 0 && borders.back() > 0) borders.push_back(0);
+  std::sort(borders.begin(), borders.end());
+  borders.erase(std::unique(borders.begin(), borders.end()), borders.end());
+  if (borders.size() == 1) borders.push_back(borders.front());
+  return borders;
+}
+
+// Values and categories of the cells that are cut.
+template <class Value>
+void colour_cells(const std::vector<Value>& values, const std::string& name, CellLayer& layer) {
+  layer.values.reserve(layer.section.cells.size());
+  if constexpr (std::is_floating_point_v<Value>) {
+    const std::vector<double> borders = band_borders(values);
+    layer.categories = bands_of(borders);
+    const auto last = static_cast<std::int32_t>(layer.categories.size()) - 1;
+    for (const std::uint32_t c : layer.section.cells) {
+      const auto above = std::upper_bound(borders.begin(), borders.end(), values[c]);
+      const auto band = static_cast<std::int32_t>(above - borders.begin()) - 1;
+      layer.values.push_back(std::clamp(band, 0, last));
+    }
+  } else {
+    for (const std::uint32_t c : layer.section.cells) layer.values.push_back(values[c]);
+    std::vector<std::int32_t> present = layer.values;
+    std::sort(present.begin(), present.end());
+    present.erase(std::unique(present.begin(), present.end()), present.end());
+    layer.categories = categories_of(name, present);
+  }
+}
+
+void colour_cells(const LabelledCells& cells, const std::string& name, CellLayer& layer) {
   const CellArray* array = cells.find(name);
-  if (array == nullptr) throw InputError("there is no cell array '" + name + "'" + there);
-  return std::visit(
-      [&](const auto& values) -> std::vector<std::int32_t> {
-        using Value = typename std::decay_t<decltype(values)>::value_type;
-        if constexpr (std::is_floating_point_v<Value>) {
-          throw InputError("cell array '" + name + "' holds measures, not categories" + there);
-        } else {
-          if (values.size() != cells.cells.size()) {
-            throw InputError(fmt::format("cell array '{}' holds {} values for {} cells", name,
-                                         values.size(), cells.cells.size()));
-          }
-          std::vector<std::int32_t> result;
-          result.reserve(which.size());
-          for (const std::uint32_t c : which) result.push_back(values[c]);
-          return result;
+  if (array == nullptr) {
+    throw InputError("there is no cell array '" + name + "'; there are: " + names_of_arrays(cells));
+  }
+  std::visit(
+      [&](const auto& values) {
+        if (values.size() != cells.cells.size()) {
+          throw InputError(fmt::format("cell array '{}' holds {} values for {} cells", name,
+                                       values.size(), cells.cells.size()));
         }
+        colour_cells(values, name, layer);
       },
       array->values);
 }
 
-// Says where a plane would hit, as the caller cannot see it in an empty picture.
-[[noreturn]] void fail_missed(const SectionLayers& layers, const Plane& plane) {
+}  // namespace
+
+void fail_missed(const SectionLayers& layers, const Plane& plane) {
   double low = std::numeric_limits<double>::infinity();
   double high = -low;
   const auto add = [&](const Point3& p) {
@@ -70,8 +112,6 @@ std::vector<std::int32_t> values_of_cells(const LabelledCells& cells, const std:
                   "lie between {:.6g} and {:.6g}",
                   plane.offset, low, high));
 }
-
-}  // namespace
 
 std::string plane_equation(const Plane& plane) {
   constexpr char kAxes[] = "xyz";
@@ -99,11 +139,7 @@ Scene make_scene(const SectionLayers& layers, const Plane& plane) {
   if (layers.cells != nullptr) {
     CellLayer& layer = scene.cells;
     layer.section = section_of_cells(layers.cells->points, layers.cells->cells, plane);
-    layer.values = values_of_cells(*layers.cells, layers.colour_by, layer.section.cells);
-    std::vector<std::int32_t> present = layer.values;
-    std::sort(present.begin(), present.end());
-    present.erase(std::unique(present.begin(), present.end()), present.end());
-    layer.categories = categories_of(layers.colour_by, present);
+    colour_cells(*layers.cells, layers.colour_by, layer);
     scene.extent.add(layer.section.nodes);
   }
   for (std::size_t i = 0; i < layers.surfaces.size(); ++i) {
@@ -116,8 +152,6 @@ Scene make_scene(const SectionLayers& layers, const Plane& plane) {
     scene.extent.add(layer.section.nodes);
     scene.surfaces.push_back(std::move(layer));
   }
-  // An extent of zero: the plane touches a corner.
-  if (!(scene.extent.longest() > 0)) fail_missed(layers, plane);
   return scene;
 }
 

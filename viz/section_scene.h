@@ -17,6 +17,8 @@ namespace cellocut::viz {
 struct Extent {
   Point2 low{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
   Point2 high{-std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+  // Of no or of one point: nothing to draw. (A plane that touches a corner.)
+  [[nodiscard]] bool empty() const { return !(longest() > 0); }
   void add(const std::vector<Point2>& points) {
     for (const Point2& p : points) {
       for (int k = 0; k < 2; ++k) {
@@ -47,8 +49,12 @@ struct Scene {
   Extent extent;
 };
 
-// Cuts all layers. Errors: as draw_section.
+// Cuts all layers. Errors: as draw_section, but a plane that misses makes an empty scene.
 Scene make_scene(const SectionLayers& layers, const Plane& plane);
+
+// The error for a plane that misses everything, with the offsets that would hit, as nobody sees
+// them in an empty picture.
+[[noreturn]] void fail_missed(const SectionLayers& layers, const Plane& plane);
 
 // "z = 0.5   (x right, y up)", or "x + y - 0.7 z = 0.7".
 std::string plane_equation(const Plane& plane);

@@ -30,6 +30,13 @@ struct MakeFieldArray {
 
 }  // namespace
 
+void require_length(const CellArray& array, std::size_t cells) {
+  const std::size_t length = std::visit([](const auto& v) { return v.size(); }, array.values);
+  if (length == cells) return;
+  throw InputError("cell array '" + array.name + "' holds " + std::to_string(length) +
+                   " values for " + std::to_string(cells) + " cells");
+}
+
 vtkSmartPointer<vtkPoints> borrow_points(const std::vector<Point3>& points) {
   auto result = vtkSmartPointer<vtkPoints>::New();
   result->SetDataTypeToDouble();

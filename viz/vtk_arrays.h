@@ -46,6 +46,9 @@ struct BorrowArray {
   }
 };
 
+// Errors: InputError where the array has not one value for each of so many cells.
+void require_length(const CellArray& array, std::size_t cells);
+
 // The points, as Float64, without a copy.
 vtkSmartPointer<vtkPoints> borrow_points(const std::vector<Point3>& points);
 

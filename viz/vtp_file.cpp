@@ -1,6 +1,7 @@
 #include "viz/vtp_file.h"
 
 #include <vtkCellArray.h>
+#include <vtkCellData.h>
 #include <vtkFieldData.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
@@ -41,7 +42,7 @@ void set_triangles(vtkPolyData& data, const TriangleSoup& surface) {
 }  // namespace
 
 std::string encode_vtp(const TriangleSoup& surface, std::span<const VertexAttribute> arrays,
-                       std::span<const FieldValue> fields) {
+                       std::span<const FieldValue> fields, std::span<const CellArray> faces) {
   vtkNew<vtkPolyData> data;
   data->SetPoints(borrow_points(surface.points));
   set_triangles(*data, surface);
@@ -59,6 +60,12 @@ std::string encode_vtp(const TriangleSoup& surface, std::span<const VertexAttrib
     colours->SetName("RGB");
     data->GetPointData()->AddArray(colours);
     data->GetPointData()->SetActiveScalars("RGB");
+  }
+  for (const CellArray& array : faces) {
+    require_length(array, surface.triangles.size());
+    const vtkSmartPointer<vtkDataArray> values = std::visit(BorrowArray{}, array.values);
+    values->SetName(array.name.c_str());
+    data->GetCellData()->AddArray(values);
   }
   for (const FieldValue& field : fields) data->GetFieldData()->AddArray(make_field_array(field));
   vtkNew<vtkXMLPolyDataWriter> writer;

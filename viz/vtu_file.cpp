@@ -19,10 +19,6 @@ namespace cellocut::viz {
 
 namespace {
 
-std::size_t length_of(const ArrayValues& values) {
-  return std::visit([](const auto& v) { return v.size(); }, values);
-}
-
 void set_tetrahedra(vtkUnstructuredGrid& grid, const LabelledCells& cells) {
   const auto count = static_cast<vtkIdType>(cells.cells.size());
   vtkNew<vtkTypeInt64Array> offsets;
@@ -53,11 +49,7 @@ std::string encode_vtu(const LabelledCells& cells) {
   set_tetrahedra(*grid, cells);
 
   for (const CellArray& array : cells.arrays) {
-    if (length_of(array.values) != cells.cells.size()) {
-      throw InputError("cell array '" + array.name + "' holds " +
-                       std::to_string(length_of(array.values)) + " values for " +
-                       std::to_string(cells.cells.size()) + " cells");
-    }
+    require_length(array, cells.cells.size());
     const vtkSmartPointer<vtkDataArray> values = std::visit(BorrowArray{}, array.values);
     values->SetName(array.name.c_str());
     grid->GetCellData()->AddArray(values);

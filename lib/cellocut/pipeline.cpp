@@ -6,6 +6,7 @@
 
 #include "cellocut/base/errors.h"
 #include "cellocut/base/stopwatch.h"
+#include "cellocut/energy/facet_support.h"
 #include "cellocut/field/distance_field.h"
 #include "cellocut/field/flood_sign.h"
 #include "cellocut/path/one_sided.h"
@@ -66,6 +67,20 @@ CellLabels label_by_sign(const std::vector<float>& phi) {
   return labels;
 }
 
+std::vector<std::int64_t> measure_support(const RemeshResult& result,
+                                          const RemeshOptions& options) {
+  return options.support == SupportRule::labels
+             ? support_by_labels(result.facets, result.areas, result.initial_label)
+             : support_by_facets(result.complex, result.facets, result.areas, result.phi,
+                                 result.frame);
+}
+
+// What a certificate takes as given: support that does not follow from the labels.
+const std::vector<std::int64_t>* claimed_support(const RemeshResult& result,
+                                                 const RemeshOptions& options) {
+  return options.support == SupportRule::labels ? nullptr : &result.areas.supported;
+}
+
 CertificateReport certify(const RemeshResult& result, const RemeshOptions& options) {
   return check_certificate({.complex = result.complex,
                             .initial = result.initial_label,
@@ -78,7 +93,8 @@ CertificateReport certify(const RemeshResult& result, const RemeshOptions& optio
                             .smallest_interior = result.smallest_interior,
                             .largest_interior = result.largest_interior,
                             .unary = options.unary,
-                            .guided = result.guided});
+                            .guided = result.guided,
+                            .supported = claimed_support(result, options)});
 }
 
 // The surface in index coordinates of the grid.
@@ -168,8 +184,8 @@ void choose_lambda(RemeshResult& result, CutSolver& solver, LazyNearest& nearest
       std::min(kLargestLambdaTerm, kCapacityLimit / 2 / (result.areas.sum + 1));
   result.fill_choice = choose_fill(path, sides, path_solids(result.complex, path), largest_term);
   result.derived.lambda_fill = result.fill_choice->lambda;
-  result.graph = build_cell_graph(result.complex, result.facets, result.areas, result.initial_label,
-                                  result.anchors, result.derived.lambda_fill);
+  result.graph = build_cell_graph(result.complex, result.facets, result.areas, result.anchors,
+                                  result.derived.lambda_fill);
 }
 
 // What is done to the extracted surface: the supported part goes to the input, the completed one
@@ -245,21 +261,21 @@ RemeshResult pose_cut(const TriangleSoup& input, const RemeshOptions& options,
     result.facets = list_facets(result.complex);
     result.areas =
         quantise_areas(result.complex, result.facets, result.frame.unit, options.area_bits);
+    result.areas.supported = measure_support(result, options);
     result.anchors = options.unary
                          ? anchor_cells(result.complex, result.initial_label, options.exterior)
                          : std::vector<Anchor>(result.complex.cells.size(), Anchor::free);
     result.guided =
         guide_cells(result.complex, options.guidance, result.initial_label, result.anchors);
-    return build_cell_graph(result.complex, result.facets, result.areas, result.initial_label,
-                            result.anchors, result.derived.lambda_fill);
+    return build_cell_graph(result.complex, result.facets, result.areas, result.anchors,
+                            result.derived.lambda_fill);
   });
   return result;
 }
 
 CellPath find_path(const RemeshResult& result, const Lambda& first, const Lambda& last,
                    CutSolver& solver, Observer& observer) {
-  return find_cell_path(result.graph, result.facets, result.areas, result.initial_label, first,
-                        last, solver, observer);
+  return find_cell_path(result.graph, result.facets, result.areas, first, last, solver, observer);
 }
 
 CertificateReport certify_path(const RemeshResult& result, const RemeshOptions& options,
@@ -270,7 +286,8 @@ CertificateReport certify_path(const RemeshResult& result, const RemeshOptions& 
                      .guided = result.guided,
                      .unit = result.frame.unit,
                      .area_bits = options.area_bits,
-                     .path = path});
+                     .path = path,
+                     .supported = claimed_support(result, options)});
 }
 
 void adopt_cut(RemeshResult& result, const RemeshOptions& options, CutResult cut) {
@@ -278,8 +295,8 @@ void adopt_cut(RemeshResult& result, const RemeshOptions& options, CutResult cut
   result.largest_interior = expand_labels(result.graph, cut.largest_source_side);
   result.label =
       options.cut == CutChoice::largest ? result.largest_interior : result.smallest_interior;
-  result.facet_flow = lift_flow(result.graph, result.facets, result.areas, result.initial_label,
-                                result.anchors, result.derived.lambda_fill, cut.edge_flow);
+  result.facet_flow = lift_flow(result.graph, result.facets, result.areas, result.anchors,
+                                result.derived.lambda_fill, cut.edge_flow);
   result.cut = std::move(cut);
   result.certificate = certify(result, options);
 }
@@ -308,6 +325,10 @@ RemeshResult remesh(const TriangleSoup& input, const RemeshOptions& options,
                     const Tetrahedralizer& tetrahedralizer, CutSolver& solver, Observer& observer) {
   if (options.transfer_colour && input.colours.empty()) {
     throw InputError("the mesh has no colours at its vertices that could be transferred");
+  }
+  if (options.lambda_auto && options.support != SupportRule::labels) {
+    throw UsageError(
+        "--lambda-fill auto chooses from a nested fill path: it needs --support labels");
   }
   if (options.lambda_auto && !solver.info().exact) {
     throw UsageError("--lambda-fill auto needs an exact solver");

@@ -48,6 +48,7 @@ struct RemeshOptions {
   // Whether lambda_fill is chosen from the fill path (path/auto_fill.h); by remesh() alone, with an
   // exact solver.
   bool lambda_auto = false;
+  SupportRule support = SupportRule::labels;
   ExteriorMode exterior = ExteriorMode::unbounded;
   Guidance guidance;   // points that are to be inside or outside
   int area_bits = 40;  // facet areas sum to at most 2^area_bits quanta; 8 to 50

@@ -34,9 +34,8 @@ bool agrees(const std::string& file, int resolution) {
   for (int n = 0; n < kLambdas; ++n) {
     const double exponent = static_cast<double>(random() >> 11) * 0x1p-53;
     const Lambda lambda{static_cast<std::int64_t>(1000 * std::pow(1000.0, exponent)), 1000};
-    const CellGraph graph =
-        build_cell_graph(result.complex, result.facets, result.areas, result.initial_label,
-                         result.anchors, {lambda.p, lambda.q});
+    const CellGraph graph = build_cell_graph(result.complex, result.facets, result.areas,
+                                             result.anchors, {lambda.p, lambda.q});
     const CutResult cut = solvers::make("ibfs")->solve(graph.problem);
     const std::size_t k = labelling_at(path.path, lambda);
     const bool same = cost_at(path.path.areas[k], lambda) == Wide{cut.value} &&

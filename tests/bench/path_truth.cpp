@@ -8,15 +8,13 @@
 // the volume IoU of its cells with the truth, a cell counting as inside where its centroid is.
 #include <fmt/core.h>
 
-#include <cstdio>
-#include <exception>
-
 #include "backends/backends.h"
 #include "cellocut/measure/volume_overlap.h"
 #include "cellocut/mesh/mesh_file.h"
 #include "cellocut/path/one_sided.h"
 #include "cellocut/pipeline.h"
 #include "solvers/solvers.h"
+#include "truth_pairs.h"
 
 namespace {
 
@@ -72,18 +70,7 @@ void compare(const std::string& truth_file, const std::string& damaged_file, int
 }  // namespace
 
 int main(int count, char** arguments) {
-  if (count < 4 || count % 2 != 0) {
-    fmt::print(stderr, "path_truth RESOLUTION TRUTH DAMAGED [TRUTH DAMAGED ...]\n");
-    return 2;
-  }
-  fmt::print("mesh,from,to,supported,unsupported,volume,slab,components,one_sided,open,iou\n");
-  try {
-    for (int n = 2; n + 1 < count; n += 2) {
-      compare(arguments[n], arguments[n + 1], std::stoi(arguments[1]));
-    }
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "{}\n", error.what());
-    return 1;
-  }
-  return 0;
+  return cellocut::run_truth_pairs(
+      count, arguments, "path_truth",
+      "mesh,from,to,supported,unsupported,volume,slab,components,one_sided,open,iou", compare);
 }

@@ -49,6 +49,29 @@ class Path(ProgramCase):
         for arguments in (("--threads", "4"), ("--solver", "bk"), ("--solver", "ibfs")):
             self.assertEqual(self.labellings(*arguments), rows)
 
+    def test_support_of_facets(self):
+        rows = self.labellings("--support", "facets", "--range", "2,200")
+        report = json.loads(self.get("out/path.json"))
+        self.assertFalse(report["nested"])
+        self.assertEqual(report["parameters"]["support"], "facets")
+        self.assertEqual([check["name"] for check in report["certificate"]["checks"]],
+                         ["sizes", "anchors", "areas", "breakpoints", "flows"])
+        self.assertTrue(report["certificate"]["valid"])
+        self.assertEqual(self.labellings("--support", "facets", "--range", "2,200", "--solver", "ibfs"), rows)
+        if HAS_VTU:
+            self.assertNotIn(b'Name="label_path"', self.get("out/cells.vtu"))
+        # One cut of its own, within the widest interval.
+        row = min(rows, key=lambda row: float(row["lambda_from"]) / float(row["lambda_to"]))
+        middle = round(500 * (float(row["lambda_from"]) + float(row["lambda_to"])))
+        self.succeed("remesh", "holed.obj", "-o", "o.obj", *COARSE, "--support", "facets", "--lambda-fill",
+                     f"{middle}/1000", "--json", "r.json")
+        single = json.loads(self.get("r.json"))
+        self.assertEqual(single["parameters"]["support"], "facets")
+        self.assertTrue(single["certificate"]["valid"])
+        cut = single["cut"]
+        self.assertEqual(cut["value"], cut["lambda_den"] * int(row["supported_quanta"]) +
+                         cut["lambda_num"] * int(row["unsupported_quanta"]))
+
     def test_files_for_looking_at(self):
         rows = self.labellings("--surfaces", "3")
         svg = xml.etree.ElementTree.fromstring(self.get("out/path.svg"))
@@ -102,6 +125,7 @@ class AutoFill(ProgramCase):
         for arguments, what in (
                 (("remesh", "holed.obj", "-o", "o.obj", "--solver", "lp"), "--lambda-fill auto needs an exact"),
                 (("remesh", "holed.obj", "-o", "o.obj", "--no-unary", "--surface", "sdf"), "--lambda-fill auto needs"),
+                (("remesh", "holed.obj", "-o", "o.obj", "--support", "facets"), "--support labels"),
                 (("compare", "holed.obj", "-o", "out"), "--lambda-fill auto: give a number")):
             with self.subTest(arguments):
                 self.fail_with(2, r"\Acellocut: .*" + what, *arguments, "--lambda-fill", "auto", outputs=())

@@ -164,7 +164,7 @@ class ListAndHelp(ProgramCase):
         self.put("list.json", OLD)
         run = self.succeed("list", "--json", "list.json")
         self.assertIn(b"minimum-cut solvers", run.stdout)
-        self.assertEqual(set(json.loads(self.get("list.json"))), {"backends", "solvers"})
+        self.assertEqual(set(json.loads(self.get("list.json"))), {"backends", "solvers", "report"})
 
     def test_help_and_version(self):
         self.assertRegex(self.succeed("--version").stdout.decode(), r"\A\d+\.\d+\.\d+\n\Z")

@@ -110,21 +110,23 @@ class FillPaths : public SolverCase {};
 INSTANTIATE_TEST_SUITE_P(Exact, FillPaths, ::testing::ValuesIn(exact_solvers()),
                          [](const auto& instance) { return instance.param; });
 
-ParametricProblem random_problem(std::mt19937_64& random, std::int64_t largest_area) {
+// With support between nodes and at the sink cuts are not nested.
+ParametricProblem random_problem(std::mt19937_64& random, std::int64_t largest_area, bool nested) {
   const auto nodes = static_cast<std::uint32_t>(2 + random() % 8);
   const auto area = [&] {
     return 1 + static_cast<std::int64_t>(random() % static_cast<std::uint64_t>(largest_area));
   };
+  const auto some = [&] { return nested || random() % 3 != 0 ? 0 : area(); };
   ParametricProblem problem;
   for (std::uint32_t i = 0; i < nodes; ++i) {
-    problem.supported.push_back(random() % 2 == 0 ? 4 * area() : 0);
-    problem.unsupported_source.push_back(random() % 8 == 0 ? area() : 0);
-    problem.unsupported_sink.push_back(random() % 3 == 0 ? area() : 0);
+    const std::int64_t supported = random() % 2 == 0 ? 4 * area() : 0;
+    problem.to_source.push_back({supported, random() % 8 == 0 ? area() : 0});
+    problem.to_sink.push_back({some(), random() % 3 == 0 ? area() : 0});
   }
   for (std::uint32_t e = 0; e < 2 * nodes; ++e) {
     const auto from = static_cast<std::uint32_t>(random() % nodes);
     const auto to = static_cast<std::uint32_t>(random() % nodes);
-    if (from != to) problem.edges.push_back({from, to, area()});
+    if (from != to) problem.edges.push_back({from, to, {some(), area()}});
   }
   problem.constant = {area(), area()};
   return problem;
@@ -151,26 +153,27 @@ Minimum exhaustive_minimum(const ParametricProblem& problem, const Lambda& lambd
 // A fraction between two others.
 Lambda between(const Lambda& a, const Lambda& b) { return {a.p + b.p, a.q + b.q}; }
 
-TEST_P(FillPaths, AreTheEnvelopeOfAllLabellings) {
+// How many labellings the paths of random problems had.
+std::size_t expect_envelopes(CutSolver& solver, bool nested) {
   std::mt19937_64 random(11);
-  const auto solver = make();
   std::size_t labellings = 0;
   // The last areas need capacities beyond 64 bits.
   for (const std::int64_t largest_area : {3LL, 20LL, 1'000'000LL, 40'000'000'000'000LL}) {
     for (int trial = 0; trial < 60; ++trial) {
-      const ParametricProblem problem = random_problem(random, largest_area);
+      const ParametricProblem problem = random_problem(random, largest_area, nested);
       const std::size_t nodes = problem.node_count();
       const Lambda first{1, 3};
       const Lambda last{50, 1};
-      const FillPath path = find_fill_path(problem, first, last, *solver, silent_observer());
-      ASSERT_EQ(path.areas.size(), path.breakpoints.size() + 1);
+      const FillPath path = find_fill_path(problem, first, last, solver, silent_observer());
+      EXPECT_EQ(path.nested, problem.nested());
+      EXPECT_EQ(path.areas.size(), path.breakpoints.size() + 1);
       labellings += path.areas.size();
       // One labelling is minimal at both ends of its interval, and the largest minimum within.
       // Costs are concave in lambda: so is the least of them, and nothing between is below.
       for (std::size_t k = 0; k < path.areas.size(); ++k) {
         const Lambda& from = k == 0 ? first : path.breakpoints[k - 1];
         const Lambda& to = k + 1 == path.areas.size() ? last : path.breakpoints[k];
-        ASSERT_TRUE(from < to);
+        EXPECT_TRUE(from < to);
         CutLabels side(nodes);
         for (std::size_t i = 0; i < nodes; ++i) side[i] = holds(path, k, i) ? 1 : 0;
         EXPECT_EQ(areas_of(problem, side), path.areas[k]);
@@ -187,7 +190,15 @@ TEST_P(FillPaths, AreTheEnvelopeOfAllLabellings) {
       }
     }
   }
-  EXPECT_GT(labellings, 400U);
+  return labellings;
+}
+
+TEST_P(FillPaths, AreTheEnvelopeOfAllLabellings) {
+  EXPECT_GT(expect_envelopes(*make(), true), 400U);
+}
+
+TEST_P(FillPaths, AreTheEnvelopeWhereCutsAreNotNested) {
+  EXPECT_GT(expect_envelopes(*make(), false), 400U);
 }
 
 TEST_P(FillPaths, OfAProblemWithoutNodesHasOneLabelling) {
@@ -201,9 +212,8 @@ TEST_P(FillPaths, OfAProblemWithoutNodesHasOneLabelling) {
 // A chain in which each node is worth keeping up to its own lambda: 2, 3, 4, 5.
 TEST_P(FillPaths, OfAKnownChain) {
   ParametricProblem problem;
-  problem.supported = {2, 3, 4, 5};
-  problem.unsupported_source = {0, 0, 0, 0};
-  problem.unsupported_sink = {1, 1, 1, 1};
+  problem.to_source = {{2, 0}, {3, 0}, {4, 0}, {5, 0}};
+  problem.to_sink = {{0, 1}, {0, 1}, {0, 1}, {0, 1}};
   const FillPath path = find_fill_path(problem, {1, 1}, {10, 1}, *make(), silent_observer());
   ASSERT_EQ(path.breakpoints.size(), 4U);
   for (std::int64_t k = 0; k < 4; ++k) {
@@ -216,9 +226,8 @@ TEST_P(FillPaths, OfAKnownChain) {
 // none.
 TEST_P(FillPaths, TiesMakeOneBreakpointAndNoneAtTheEnds) {
   ParametricProblem problem;
-  problem.supported = {6, 9};
-  problem.unsupported_source = {0, 0};
-  problem.unsupported_sink = {2, 3};
+  problem.to_source = {{6, 0}, {9, 0}};
+  problem.to_sink = {{0, 2}, {0, 3}};
   const FillPath path = find_fill_path(problem, {1, 1}, {10, 1}, *make(), silent_observer());
   ASSERT_EQ(path.breakpoints.size(), 1U);
   EXPECT_TRUE(path.breakpoints[0] == (Lambda{3, 1}));

@@ -173,6 +173,95 @@ TEST_P(CellPaths, HaveACertificateThatRefusesWhatIsWrong) {
   }
 }
 
+// Support measured on facets: labellings are not nested, and each is found on its own.
+class CellPathsByFacets : public ::testing::TestWithParam<Case> {
+ protected:
+  CellPathsByFacets() : options_(at_resolution(48)) {
+    options_.exterior = GetParam().exterior;
+    options_.support = SupportRule::facets;
+    options_.lambda_fill = {1, 1};
+    result_ = pose_cut(GetParam().soup, options_, *backends::make("cgal"));
+    path_ = find_path(result_, kFirst, kLast, *solvers::make("push_relabel"));
+  }
+
+  RemeshOptions options_;
+  RemeshResult result_;
+  CellPath path_;
+};
+
+TEST_P(CellPathsByFacets, AgreeWithCutsAtRandomLambdas) {
+  ASSERT_GE(path_.count(), 2U);
+  ASSERT_FALSE(path_.path.nested);
+  std::mt19937_64 random(6);
+  const std::vector<PathSolid> solids = path_solids(result_.complex, path_);
+  for (int n = 0; n < 20; ++n) {
+    const double exponent = static_cast<double>(random() % 1'000'000) / 1e6;
+    const Lambda lambda{static_cast<std::int64_t>(std::pow(1000.0, exponent) * 1000), 1000};
+    RemeshOptions options = options_;
+    options.lambda_fill = {lambda.p, lambda.q};
+    RemeshResult single = pose_cut(GetParam().soup, options, *backends::make("cgal"));
+    minimise_cut(single, options, *solvers::make("ibfs"));
+    EXPECT_TRUE(single.certificate.valid);
+    const std::size_t k = labelling_at(path_.path, lambda);
+    EXPECT_TRUE(cost_at(path_.path.areas[k], lambda) == Wide{single.cut.value});
+    EXPECT_EQ(path_.labels(k), single.largest_interior) << "lambda " << to_double(lambda);
+    double volume = 0;
+    for (std::uint32_t c = 0; c < single.label.size(); ++c) {
+      if (single.largest_interior[c] == kInterior) volume += cell_volume(single.complex, c);
+    }
+    EXPECT_NEAR(solids[k].volume, volume, 1e-9 * volume);
+  }
+}
+
+TEST_P(CellPathsByFacets, HaveACertificateThatRefusesWhatIsWrong) {
+  ASSERT_TRUE(certify_path(result_, options_, path_).valid);
+  const auto expect_refused = [&](const std::string& at,
+                                  const std::function<void(CellPath&)>& corrupt) {
+    CellPath wrong = path_;
+    corrupt(wrong);
+    for (const CertificateCheck& c : certify_path(result_, options_, wrong).checks) {
+      if (c.passed) continue;
+      EXPECT_EQ(c.name, at);
+      return;
+    }
+    ADD_FAILURE() << at << ": passed";
+  };
+  std::size_t anchored = 0;
+  while (result_.anchors[anchored] != Anchor::interior) ++anchored;
+  std::size_t free = 0;
+  while (result_.anchors[free] != Anchor::free) ++free;
+  expect_refused("sizes", [](CellPath& p) { p.interior.pop_back(); });
+  expect_refused("sizes", [](CellPath& p) { p.interior[0].pop_back(); });
+  expect_refused("anchors", [&](CellPath& p) { p.interior[0][anchored] = false; });
+  expect_refused("areas", [&](CellPath& p) { p.interior[0][free].flip(); });
+  expect_refused("areas", [](CellPath& p) { ++p.path.areas[0].supported; });
+  expect_refused("breakpoints", [](CellPath& p) { ++p.path.breakpoints[0].p; });
+  expect_refused("flows", [](CellPath& p) { p.path.solves = 3; });
+}
+
+TEST_P(CellPathsByFacets, ACutWithOtherSupportThanClaimedIsRefused) {
+  options_.lambda_fill = {20, 1};  // at 1 support makes no difference
+  result_ = pose_cut(GetParam().soup, options_, *backends::make("cgal"));
+  minimise_cut(result_, options_, *solvers::make("bk"));
+  ASSERT_TRUE(result_.certificate.valid);
+  ASSERT_NE(result_.areas.supported,
+            support_by_labels(result_.facets, result_.areas, result_.initial_label));
+  RemeshOptions by_labels = options_;
+  by_labels.support = SupportRule::labels;  // the checker derives support from L*
+  adopt_cut(result_, by_labels, result_.cut);
+  EXPECT_FALSE(result_.certificate.valid);
+  result_.areas.supported[0] = result_.areas.quantised[0] + 1;
+  adopt_cut(result_, options_, result_.cut);
+  ASSERT_FALSE(result_.certificate.valid);
+  EXPECT_FALSE(result_.certificate.checks[1].passed);  // capacities
+}
+
+INSTANTIATE_TEST_SUITE_P(Pipeline, CellPathsByFacets,
+                         ::testing::Values(Case{"bowl", test::open_bowl()},
+                                           Case{"boxes_hull_cells", test::two_crossing_boxes(),
+                                                ExteriorMode::hull_cells}),
+                         [](const ::testing::TestParamInfo<Case>& c) { return c.param.name; });
+
 INSTANTIATE_TEST_SUITE_P(Pipeline, CellPaths, ::testing::ValuesIn(cases()),
                          [](const ::testing::TestParamInfo<Case>& c) { return c.param.name; });
 

@@ -72,6 +72,13 @@ TetComplex regular_bipyramid() {
                    {{0, 1, 3, 2}, {1, 2, 4, 3}});
 }
 
+FacetAreas labelled_areas(const TetComplex& complex, const FacetList& facets,
+                          const CellLabels& initial, double unit, int area_bits) {
+  FacetAreas areas = quantise_areas(complex, facets, unit, area_bits);
+  areas.supported = support_by_labels(facets, areas, initial);
+  return areas;
+}
+
 CellLabels random_labels(const TetComplex& complex, double share, std::uint64_t seed) {
   std::mt19937_64 engine(seed);
   CellLabels labels(complex.cells.size());

@@ -22,6 +22,10 @@ std::vector<std::uint32_t> cells_of_cube(const TetComplex& grid, double x, doubl
 // Two regular tetrahedra that share a facet: seven facets of equal area, cell 0 without point 4.
 TetComplex regular_bipyramid();
 
+// Quantised areas with support by labels.
+FacetAreas labelled_areas(const TetComplex& complex, const FacetList& facets,
+                          const CellLabels& initial, double unit, int area_bits);
+
 // Interior with probability `share`, exterior otherwise; depends on `seed` alone.
 CellLabels random_labels(const TetComplex& complex, double share, std::uint64_t seed);
 

@@ -24,9 +24,9 @@ struct Example {
   ExteriorMode mode;
   Rational lambda;
   FacetList facets = list_facets(complex);
-  FacetAreas areas = quantise_areas(complex, facets, 2, 30);
+  FacetAreas areas = labelled_areas(complex, facets, initial, 2, 30);
   std::vector<Anchor> anchors = anchor_cells(complex, initial, mode);
-  CellGraph graph = build_cell_graph(complex, facets, areas, initial, anchors, lambda);
+  CellGraph graph = build_cell_graph(complex, facets, areas, anchors, lambda);
   CutResult cut = {};
   CellLabels smallest = {};
   CellLabels largest = {};
@@ -38,13 +38,13 @@ struct Example {
     largest = expand_labels(graph, cut.largest_source_side);
   }
   [[nodiscard]] bool certified() const {
-    const auto flow = lift_flow(graph, facets, areas, initial, anchors, lambda, cut.edge_flow);
+    const auto flow = lift_flow(graph, facets, areas, anchors, lambda, cut.edge_flow);
     return check_certificate(
                {complex, initial, mode, lambda, 2, 30, flow, cut.value, smallest, largest})
         .valid;
   }
   [[nodiscard]] std::int64_t cost(const CellLabels& labels) const {
-    return labelling_energy(facets, areas, initial, lambda, labels);
+    return labelling_energy(facets, areas, lambda, labels);
   }
 };
 
@@ -116,9 +116,9 @@ TEST(CellGraph, WithoutAnchorsTheMinimumIsEmpty) {
   const TetComplex complex = cube_grid({2, 2, 1});
   const CellLabels initial = random_labels(complex, 0.5, 3);
   const FacetList facets = list_facets(complex);
-  const FacetAreas areas = quantise_areas(complex, facets, 2, 30);
+  const FacetAreas areas = labelled_areas(complex, facets, initial, 2, 30);
   const CellGraph graph = build_cell_graph(
-      complex, facets, areas, initial, std::vector<Anchor>(initial.size(), Anchor::free), {20, 1});
+      complex, facets, areas, std::vector<Anchor>(initial.size(), Anchor::free), {20, 1});
   const CutResult cut = solvers::make("bk")->solve(graph.problem);
   EXPECT_EQ(cut.value, 0);
   EXPECT_EQ(expand_labels(graph, cut.largest_source_side), CellLabels(initial.size(), kExterior));
@@ -128,10 +128,10 @@ TEST(CellGraph, RefusesCapacitiesThatDoNotFit) {
   const TetComplex complex = regular_bipyramid();
   const CellLabels initial(2, kExterior);
   const FacetList facets = list_facets(complex);
-  const FacetAreas areas = quantise_areas(complex, facets, 1, 50);
-  EXPECT_THROW(build_cell_graph(complex, facets, areas, initial,
-                                std::vector<Anchor>(2, Anchor::free), {1 << 20, 1}),
-               LimitError);
+  const FacetAreas areas = labelled_areas(complex, facets, initial, 1, 50);
+  EXPECT_THROW(
+      build_cell_graph(complex, facets, areas, std::vector<Anchor>(2, Anchor::free), {1 << 20, 1}),
+      LimitError);
 }
 
 // What a wrong contraction does to one arc: the certificate passes only where nothing came of it.

@@ -157,13 +157,14 @@ TEST(Anchors, FollowTheInitialLabelsAndTheMode) {
 TEST(Energy, OfTheBipyramidByHand) {
   const TetComplex complex = regular_bipyramid();
   const FacetList facets = list_facets(complex);
-  const FacetAreas areas = quantise_areas(complex, facets, 1, 40);
+  FacetAreas areas = quantise_areas(complex, facets, 1, 40);
   const std::int64_t a = areas.quantised[0];
   for (const std::int64_t other : areas.quantised) ASSERT_EQ(other, a);
   const CellLabels initial{kInterior, kExterior};
   const Rational lambda{5, 2};
+  areas.supported = support_by_labels(facets, areas, initial);
   const auto energy = [&](const CellLabels& labels) {
-    return labelling_energy(facets, areas, initial, lambda, labels);
+    return labelling_energy(facets, areas, lambda, labels);
   };
   // Weights are denominator = 2 where L* differs: at the three hull facets of cell 0 and between
   // the two; numerator = 5 at the hull of cell 1.
@@ -178,9 +179,9 @@ TEST(Energy, RefusesSumsThatDoNotFit) {
   const FacetList facets = list_facets(complex);
   FacetAreas areas = quantise_areas(complex, facets, 1, 40);
   areas.quantised.assign(facets.size(), std::int64_t{1} << 41);
+  areas.supported.assign(facets.size(), 0);
   const CellLabels all(2, kInterior);
-  EXPECT_THROW(labelling_energy(facets, areas, CellLabels(2, kExterior), {1 << 20, 1}, all),
-               LimitError);
+  EXPECT_THROW(labelling_energy(facets, areas, {1 << 20, 1}, all), LimitError);
 }
 
 }  // namespace

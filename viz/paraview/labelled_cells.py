@@ -2,7 +2,6 @@
 
 Against ParaView 5.11's `paraview.simple`.
 
-    paraview cells.vtu --script=viz/paraview/labelled_cells.py      opens and shows
     pvbatch viz/paraview/labelled_cells.py cells.vtu --screenshot cells.png
     pvpython viz/paraview/labelled_cells.py cells.vtu --array ambiguous --mode section ...
 
@@ -11,14 +10,13 @@ Run Script). From Python: `import labelled_cells; labelled_cells.show("cells.vtu
 """
 
 import argparse
+import os
 import sys
 
 from paraview.simple import (
     Clip,
-    ColorBy,
     GetActiveSource,
     GetActiveViewOrCreate,
-    GetColorTransferFunction,
     Hide,
     Render,
     ResetCamera,
@@ -30,45 +28,10 @@ from paraview.simple import (
     XMLUnstructuredGridReader,
 )
 
-SOLID = (0.867, 0.478, 0.235)
-PALE = (0.925, 0.937, 0.953)
-MARKED = (0.722, 0.118, 0.290)
-ANCHORED = (0.235, 0.471, 0.690)
-# The palette of `cellocut section` for arrays whose values have no names (Okabe and Ito, 2008).
-DISTINCT = ((0.902, 0.624, 0.000), (0.337, 0.706, 0.914), (0.000, 0.620, 0.451),
-            (0.941, 0.894, 0.259), (0.000, 0.447, 0.698), (0.835, 0.369, 0.000),
-            (0.800, 0.475, 0.655))
-MOST_CATEGORIES = 64
+sys.path[:0] = [os.path.dirname(os.path.abspath(globals()["__file__"])) if "__file__" in globals()
+                else os.environ.get("CELLOCUT_PARAVIEW", "")]
 
-
-def categories(array, low, high):
-    """(value, name, colour) of each category of the array."""
-    if array == "label" or array.startswith("label_"):
-        return [(0, "interior", SOLID), (1, "exterior", PALE)]
-    if array == "ambiguous":
-        return [(0, "decided", PALE), (1, "ambiguous", MARKED)]
-    if array == "anchored":
-        return [(0, "free", PALE), (1, "anchored", ANCHORED)]
-    values = range(int(low), min(int(high), int(low) + MOST_CATEGORIES - 1) + 1)
-    return [(v, f"{array} {v}", DISTINCT[v % len(DISTINCT)]) for v in values]
-
-
-def is_categorical(array):
-    return array not in ("phi", "volume", "lp_value")
-
-
-def colour_categories(array, low, high):
-    """Gives the array's transfer function one colour and one name per value."""
-    table = GetColorTransferFunction(array)
-    table.InterpretValuesAsCategories = 1
-    table.AnnotationsInitialized = 1
-    annotations, colours = [], []
-    for value, name, colour in categories(array, low, high):
-        annotations += [str(value), name]
-        colours += colour
-    table.Annotations = annotations
-    table.IndexedColors = colours
-    table.IndexedOpacities = [1.0] * (len(annotations) // 2)
+import kit  # noqa: E402
 
 
 def cut_open(source, mode, origin, normal):
@@ -107,11 +70,10 @@ def show(source, array="label", mode="clip", origin=None, normal=(0.0, 1.0, 0.0)
     display = Show(cut, view)
     display.Representation = "Surface With Edges"
     display.EdgeColor = [0.3, 0.3, 0.35]
-    ColorBy(display, ("CELLS", array))
-    if is_categorical(array):
-        low, high = info.GetRange()
-        colour_categories(array, low, high)
-    display.SetScalarBarVisibility(view, True)
+    if mode == "section":
+        kit.flat(display)  # the colours of the legend; light would only darken them
+    entries = None if array in kit.CONTINUOUS else kit.categories(array, *info.GetRange())
+    kit.colour_by(display, array, entries, view)
     Hide(source, view)
     SetActiveSource(cut)
     # Look at the cut: the clip keeps the side that the normal points away from.
@@ -124,20 +86,13 @@ def show(source, array="label", mode="clip", origin=None, normal=(0.0, 1.0, 0.0)
     return cut, display
 
 
-def vector(text):
-    values = [float(part) for part in text.split(",")]
-    if len(values) != 3:
-        raise argparse.ArgumentTypeError(f"'{text}': give three numbers, separated by commas")
-    return values
-
-
 def main(arguments):
     parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
     parser.add_argument("vtu", help="labelled cells")
     parser.add_argument("--array", default="label", help="the cell array that colours (label)")
     parser.add_argument("--mode", choices=["clip", "section"], default="clip")
-    parser.add_argument("--origin", type=vector, help="a point on the plane (middle of the box)")
-    parser.add_argument("--normal", type=vector, default=[0.0, 1.0, 0.0], help="(0,1,0)")
+    parser.add_argument("--origin", type=kit.vector, help="a point on the plane (middle of the box)")
+    parser.add_argument("--normal", type=kit.vector, default=[0.0, 1.0, 0.0], help="(0,1,0)")
     parser.add_argument("--screenshot", help="a PNG to write")
     options = parser.parse_args(arguments)
     show(options.vtu, options.array, options.mode, options.origin, options.normal)

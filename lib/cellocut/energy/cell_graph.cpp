@@ -43,13 +43,15 @@ std::vector<std::uint8_t> reached_from_outside(const TetComplex& complex,
   return reached;
 }
 
-void check_range(const FacetList& facets, const FacetAreas& areas, const CellLabels& initial,
-                 const Rational& lambda) {
-  // Both directions of every facet bound all sums that a problem made of them can contain.
-  Wide sum = 0;
-  for (std::size_t f = 0; f < facets.size(); ++f) {
-    sum += 2 * Wide{areas.quantised[f]} * facet_weight(facets[f], initial, lambda);
+void check_range(const FacetAreas& areas, const Rational& lambda) {
+  Wide supported = 0;
+  Wide all = 0;
+  for (std::size_t f = 0; f < areas.quantised.size(); ++f) {
+    supported += areas.supported[f];
+    all += areas.quantised[f];
   }
+  // Both directions of every facet bound all sums that a problem made of them can contain.
+  const Wide sum = 2 * (supported * lambda.denominator + (all - supported) * lambda.numerator);
   if (sum >= Wide{kCapacityLimit}) {
     throw LimitError("the capacities sum to 2^62 or more with lambda_fill = " + to_string(lambda) +
                      "; lower --area-bits, or choose lambda with smaller terms");
@@ -59,9 +61,9 @@ void check_range(const FacetList& facets, const FacetAreas& areas, const CellLab
 }  // namespace
 
 CellGraph build_cell_graph(const TetComplex& complex, const FacetList& facets,
-                           const FacetAreas& areas, const CellLabels& initial,
-                           const std::vector<Anchor>& anchors, const Rational& lambda) {
-  check_range(facets, areas, initial, lambda);
+                           const FacetAreas& areas, const std::vector<Anchor>& anchors,
+                           const Rational& lambda) {
+  check_range(areas, lambda);
   CellGraph graph;
   graph.node_of_cell.assign(anchors.size(), -1);
   graph.decided.assign(anchors.size(), kExterior);
@@ -85,7 +87,7 @@ CellGraph build_cell_graph(const TetComplex& complex, const FacetList& facets,
   problem.to_sink.assign(nodes, 0);
   for (std::uint32_t f = 0; f < facets.size(); ++f) {
     const Facet& facet = facets[f];
-    const std::int64_t capacity = facet_capacity(facet, areas.quantised[f], initial, lambda);
+    const std::int64_t capacity = facet_capacity(areas, f, lambda);
     const std::int32_t a = graph.node_of_cell[facet.cell];
     const std::int32_t b = facet.other == kOutside ? -1 : graph.node_of_cell[facet.other];
     const std::uint8_t label_a = graph.decided[facet.cell];
@@ -115,8 +117,8 @@ CellLabels expand_labels(const CellGraph& graph, const CutLabels& source_side) {
 }
 
 std::vector<std::int64_t> lift_flow(const CellGraph& graph, const FacetList& facets,
-                                    const FacetAreas& areas, const CellLabels& initial,
-                                    const std::vector<Anchor>& anchors, const Rational& lambda,
+                                    const FacetAreas& areas, const std::vector<Anchor>& anchors,
+                                    const Rational& lambda,
                                     const std::vector<std::int64_t>& edge_flow) {
   const CutProblem& problem = graph.problem;
   const std::vector<std::int64_t> out = node_balances(problem, edge_flow);
@@ -131,7 +133,7 @@ std::vector<std::int64_t> lift_flow(const CellGraph& graph, const FacetList& fac
   for (std::size_t e = 0; e < edge_flow.size(); ++e) facet_flow[graph.edge_facet[e]] = edge_flow[e];
   for (std::size_t f = 0; f < facets.size(); ++f) {
     const Facet& facet = facets[f];
-    const std::int64_t capacity = facet_capacity(facet, areas.quantised[f], initial, lambda);
+    const std::int64_t capacity = facet_capacity(areas, f, lambda);
     const Anchor beyond = anchor_beyond(anchors, facet.other);
     const Anchor here = anchors[facet.cell];
     const std::int32_t node_here = graph.node_of_cell[facet.cell];

@@ -24,8 +24,8 @@ struct CellGraph {
 // Without anchors (`anchors` all free) the unbounded region is still exterior.
 // Errors: LimitError where the sum of capacities reaches 2^62, naming --area-bits. O(cells).
 CellGraph build_cell_graph(const TetComplex& complex, const FacetList& facets,
-                           const FacetAreas& areas, const CellLabels& initial,
-                           const std::vector<Anchor>& anchors, const Rational& lambda);
+                           const FacetAreas& areas, const std::vector<Anchor>& anchors,
+                           const Rational& lambda);
 
 // Labels of all cells from the source side of the problem.
 CellLabels expand_labels(const CellGraph& graph, const CutLabels& source_side);
@@ -34,8 +34,8 @@ CellLabels expand_labels(const CellGraph& graph, const CutLabels& source_side);
 // they are, terminal flow of a node split over its facets to anchored cells, facets between
 // opposite anchors saturated.
 std::vector<std::int64_t> lift_flow(const CellGraph& graph, const FacetList& facets,
-                                    const FacetAreas& areas, const CellLabels& initial,
-                                    const std::vector<Anchor>& anchors, const Rational& lambda,
+                                    const FacetAreas& areas, const std::vector<Anchor>& anchors,
+                                    const Rational& lambda,
                                     const std::vector<std::int64_t>& edge_flow);
 
 }  // namespace cellocut

@@ -262,6 +262,10 @@ Finding Checker::check_sizes() {
   if (defect.empty()) defect = match_facets();
   if (defect.empty()) defect = match_guided();
   if (!defect.empty()) return failed(std::move(defect));
+  if (claim_.supported != nullptr && claim_.supported->size() != facets_.size()) {
+    return failed(std::to_string(claim_.supported->size()) + " supported areas for " +
+                  std::to_string(facets_.size()) + " facets");
+  }
   if (claim_.facet_flow.size() != facets_.size()) {
     return failed(std::to_string(claim_.facet_flow.size()) + " flows for " +
                   std::to_string(facets_.size()) + " facets");
@@ -302,10 +306,19 @@ std::string Checker::quantise() {
     if (sum <= limit) break;
     if (exponent + magnitude < -1) return "even one quantum a facet exceeds 2^area_bits";
   }
+  const auto& [numerator, denominator] = claim_.lambda;
   for (std::size_t f = 0; f < facets_.size(); ++f) {
-    const auto [cell, corner] = facets_[f];
-    const bool differ = claim_.initial[cell] != initial(neighbour(cell, corner));
-    capacities_[f] *= differ ? claim_.lambda.denominator : claim_.lambda.numerator;
+    if (claim_.supported == nullptr) {
+      const auto [cell, corner] = facets_[f];
+      const bool differ = claim_.initial[cell] != initial(neighbour(cell, corner));
+      capacities_[f] *= differ ? denominator : numerator;
+      continue;
+    }
+    const Wide supported = (*claim_.supported)[f];
+    if (supported < 0 || supported > capacities_[f]) {
+      return "facet " + std::to_string(f) + " has more support than area";
+    }
+    capacities_[f] = supported * denominator + (capacities_[f] - supported) * numerator;
   }
   return {};
 }

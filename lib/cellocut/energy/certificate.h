@@ -41,6 +41,8 @@ struct CertificateClaim {
   const CellLabels& largest_interior;
   bool unary = true;        // false: no cell is anchored interior, L* only sets weights
   GuidedCells guided = {};  // fixed by the user's points, besides the others
+  // Per facet, in quanta: its supported area, where that does not follow from L*. Taken as given.
+  const std::vector<std::int64_t>* supported = nullptr;
 };
 
 // Checks, in this order, each reported by name:

@@ -145,23 +145,28 @@ bool is_supported(const Facet& facet, const CellLabels& initial) {
   return initial[facet.cell] != (facet.other == kOutside ? kExterior : initial[facet.other]);
 }
 
-std::int64_t facet_weight(const Facet& facet, const CellLabels& initial, const Rational& lambda) {
-  return is_supported(facet, initial) ? lambda.denominator : lambda.numerator;
+std::vector<std::int64_t> support_by_labels(const FacetList& facets, const FacetAreas& areas,
+                                            const CellLabels& initial) {
+  std::vector<std::int64_t> supported(facets.size());
+  for (std::size_t f = 0; f < facets.size(); ++f) {
+    supported[f] = is_supported(facets[f], initial) ? areas.quantised[f] : 0;
+  }
+  return supported;
 }
 
-std::int64_t facet_capacity(const Facet& facet, std::int64_t quantised, const CellLabels& initial,
-                            const Rational& lambda) {
-  return quantised * facet_weight(facet, initial, lambda);
+std::int64_t facet_capacity(const FacetAreas& areas, std::size_t f, const Rational& lambda) {
+  return lambda.denominator * areas.supported[f] +
+         lambda.numerator * (areas.quantised[f] - areas.supported[f]);
 }
 
 std::int64_t labelling_energy(const FacetList& facets, const FacetAreas& areas,
-                              const CellLabels& initial, const Rational& lambda,
-                              const CellLabels& labels) {
+                              const Rational& lambda, const CellLabels& labels) {
   Wide energy = 0;
   for (std::size_t f = 0; f < facets.size(); ++f) {
     const std::uint8_t beyond = facets[f].other == kOutside ? kExterior : labels[facets[f].other];
     if (labels[facets[f].cell] == beyond) continue;
-    energy += Wide{areas.quantised[f]} * facet_weight(facets[f], initial, lambda);
+    energy += Wide{areas.supported[f]} * lambda.denominator +
+              Wide{areas.quantised[f] - areas.supported[f]} * lambda.numerator;
   }
   if (energy >= Wide{1} << 62) throw LimitError("the energy reaches 2^62; lower --area-bits");
   return static_cast<std::int64_t>(energy);

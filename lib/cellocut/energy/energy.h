@@ -1,7 +1,8 @@
 // The energy of the paper (section "Global Optimization of Partitioning Energy") in integers.
 //
 //   E(L) = sum over facets f between cells of different label of  w_f * area(f),
-//   w_f  = 1 where the initial labels L* differ, lambda_fill where they agree,
+//   w_f  = 1 where the initial labels L* differ, lambda_fill where they agree
+//          (the paper's rule; facet_support.h has one that weights parts of a facet),
 //
 // over labellings with L(c) = 0 (interior) wherever L*(c) = 0. The unbounded region beyond the hull
 // is one more cell with L* = 1 that is fixed exterior; hull facets are facets to it.
@@ -48,10 +49,19 @@ using FacetList = std::vector<Facet>;
 // O(cells).
 FacetList list_facets(const TetComplex& complex);
 
+// What of a facet is supported, and has weight 1.
+enum class SupportRule {
+  labels,  // all of it where L* differs across it, else nothing (the paper's)
+  facets   // the part of its area that is in the slab or next to it (facet_support.h)
+};
+
 // Facet areas as integers: quantised[f] = max(1, llround(scale * area_f / unit^2)), with scale the
 // largest power of two for which the sum stays <= 2^area_bits.
 struct FacetAreas {
   std::vector<std::int64_t> quantised;
+  // What of it has weight 1, the rest having lambda_fill; in [0, quantised]. Not set by
+  // quantise_areas.
+  std::vector<std::int64_t> supported;
   double unit = 1;   // length of one relative unit, in input units
   double scale = 1;  // quanta per squared relative unit, a power of two
   std::int64_t sum = 0;
@@ -72,19 +82,18 @@ std::vector<Anchor> anchor_cells(const TetComplex& complex, const CellLabels& in
 // Whether L* differs across the facet; beyond the hull it is exterior.
 bool is_supported(const Facet& facet, const CellLabels& initial);
 
-// w_f times the denominator of lambda: the denominator where L* differs across the facet, the
-// numerator where it does not.
-std::int64_t facet_weight(const Facet& facet, const CellLabels& initial, const Rational& lambda);
+// The paper's rule, for FacetAreas::supported: all of a facet's area where L* differs across it,
+// else nothing. O(facets).
+std::vector<std::int64_t> support_by_labels(const FacetList& facets, const FacetAreas& areas,
+                                            const CellLabels& initial);
 
-// Capacity of a facet in integer units, weight times quantised area. Precondition: the product
-// fits, as build_cell_graph has checked.
-std::int64_t facet_capacity(const Facet& facet, std::int64_t quantised, const CellLabels& initial,
-                            const Rational& lambda);
+// Capacity of facet f in integer units: its supported area times the denominator of lambda, and the
+// rest times the numerator. Precondition: the sum fits, as build_cell_graph has checked.
+std::int64_t facet_capacity(const FacetAreas& areas, std::size_t f, const Rational& lambda);
 
 // E(labels) in integer units (divide by denominator * scale for squared relative units).
 // Errors: LimitError where a sum of all capacities reaches 2^62.
 std::int64_t labelling_energy(const FacetList& facets, const FacetAreas& areas,
-                              const CellLabels& initial, const Rational& lambda,
-                              const CellLabels& labels);
+                              const Rational& lambda, const CellLabels& labels);
 
 }  // namespace cellocut

@@ -13,23 +13,6 @@ constexpr double kOtherSolid = 0.05;
 
 }  // namespace
 
-// The continued fraction of both, as far as they agree (Stern and Brocot's tree).
-Lambda simplest_between(const Lambda& a, const Lambda& b) {
-  const std::int64_t whole = a.p / a.q;
-  if (Lambda{whole + 1, 1} < b) return {whole + 1, 1};
-  // a < x < b, and b is at most the next integer: x = whole + 1 / y.
-  const Lambda above{a.q, a.p - whole * a.q};  // 1 / (a - whole), where that is positive
-  const Lambda below{b.q, b.p - whole * b.q};  // 1 / (b - whole)
-  Lambda inverse;
-  if (above.q == 0) {
-    // a is an integer: y may be as large as it likes; the first integer above 1 / (b - whole).
-    inverse = {below.p / below.q + 1, 1};
-  } else {
-    inverse = simplest_between(below, above);
-  }
-  return {whole * inverse.p + inverse.q, inverse.p};
-}
-
 double FillChoice::margin() const {
   if (!runner_up || !(chosen.sides.one_sided > 0)) return 0;
   return 1 - runner_up->sides.one_sided / chosen.sides.one_sided;

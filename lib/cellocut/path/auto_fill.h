@@ -16,10 +16,12 @@
 
 namespace cellocut {
 
-// The range in which a labelling is looked for: below, an opening would be closed that has less
-// than twice its own area of sheet behind it. (An open hemisphere is a bowl.)
+// The range in which a labelling is looked for. Below, an opening would be closed that has less
+// than twice its own area of sheet behind it (an open hemisphere is a bowl). Above, less would be
+// closed than the default closes: where walls enclose each other, as in machines, parts are then
+// left hollow for the sake of inner walls with their two sides in the open.
 inline constexpr Lambda kAutoFirst{2, 1};
-inline constexpr Lambda kAutoLast{1000, 1};
+inline constexpr Lambda kAutoLast{20, 1};
 
 struct FillCandidate {
   Lambda from;  // its interval
@@ -38,10 +40,6 @@ struct FillChoice {
   // The share of one-sided area that the runner-up has less; 0 where there is none of either.
   [[nodiscard]] double margin() const;
 };
-
-// The simplest fraction strictly between two others: of all there the one with the smallest terms.
-// Precondition: a < b. O(size of the continued fraction).
-Lambda simplest_between(const Lambda& a, const Lambda& b);
 
 // Labellings whose interval holds no fraction with terms up to `largest_term` are passed over.
 // O(labellings). Preconditions: one entry per labelling each, at least one. Errors: LimitError

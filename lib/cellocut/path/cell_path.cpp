@@ -1,57 +1,67 @@
 #include "cellocut/path/cell_path.h"
 
+#include <tbb/parallel_for.h>
+
 #include <numeric>
 
 namespace cellocut {
 
 ParametricProblem make_parametric_problem(const CellGraph& graph, const FacetList& facets,
-                                          const FacetAreas& areas, const CellLabels& initial) {
+                                          const FacetAreas& areas) {
   const std::size_t nodes = graph.problem.node_count();
   ParametricProblem problem;
-  problem.supported.assign(nodes, 0);
-  problem.unsupported_source.assign(nodes, 0);
-  problem.unsupported_sink.assign(nodes, 0);
+  problem.to_source.resize(nodes);
+  problem.to_sink.resize(nodes);
   problem.edges.reserve(graph.problem.edges.size());
   for (std::size_t f = 0; f < facets.size(); ++f) {
     const Facet& facet = facets[f];
     const bool hull = facet.other == kOutside;
-    const std::int64_t area = areas.quantised[f];
-    const bool supported = is_supported(facet, initial);
+    const InterfaceAreas both{areas.supported[f], areas.quantised[f] - areas.supported[f]};
     const std::int32_t a = graph.node_of_cell[facet.cell];
     const std::int32_t b = hull ? -1 : graph.node_of_cell[static_cast<std::size_t>(facet.other)];
     const std::uint8_t label_a = graph.decided[facet.cell];
     const std::uint8_t label_b =
         hull ? kExterior : graph.decided[static_cast<std::size_t>(facet.other)];
     if (a >= 0 && b >= 0) {
-      problem.edges.push_back({static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b), area});
+      problem.edges.push_back({static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b), both});
     } else if (a >= 0 || b >= 0) {
       const auto node = static_cast<std::size_t>(a >= 0 ? a : b);
-      if ((a >= 0 ? label_b : label_a) == kExterior) {
-        problem.unsupported_sink[node] += area;
-      } else {
-        (supported ? problem.supported : problem.unsupported_source)[node] += area;
-      }
+      const std::uint8_t decided = a >= 0 ? label_b : label_a;
+      (decided == kInterior ? problem.to_source : problem.to_sink)[node] += both;
     } else if (label_a != label_b) {
-      (supported ? problem.constant.supported : problem.constant.unsupported) += area;
+      problem.constant += both;
     }
   }
   return problem;
 }
 
 CellLabels CellPath::labels(std::size_t k) const {
-  CellLabels labels(level.size());
+  CellLabels labels(path.nested ? level.size() : interior[k].size());
   for (std::size_t c = 0; c < labels.size(); ++c) {
-    labels[c] = level[c] > k ? kInterior : kExterior;
+    labels[c] = holds(k, c) ? kInterior : kExterior;
   }
   return labels;
 }
 
 CellPath find_cell_path(const CellGraph& graph, const FacetList& facets, const FacetAreas& areas,
-                        const CellLabels& initial, const Lambda& first, const Lambda& last,
-                        CutSolver& solver, Observer& observer) {
+                        const Lambda& first, const Lambda& last, CutSolver& solver,
+                        Observer& observer) {
   CellPath result;
-  result.path = find_fill_path(make_parametric_problem(graph, facets, areas, initial), first, last,
-                               solver, observer);
+  result.path =
+      find_fill_path(make_parametric_problem(graph, facets, areas), first, last, solver, observer);
+  if (!result.path.nested) {
+    for (std::vector<bool>& nodes : result.path.source_side) {
+      std::vector<bool> cells(graph.node_of_cell.size());
+      for (std::size_t c = 0; c < cells.size(); ++c) {
+        const std::int32_t node = graph.node_of_cell[c];
+        cells[c] =
+            node >= 0 ? nodes[static_cast<std::size_t>(node)] : graph.decided[c] == kInterior;
+      }
+      result.interior.push_back(std::move(cells));
+      nodes = {};
+    }
+    return result;
+  }
   const auto highest = static_cast<std::uint32_t>(result.count());
   result.level.resize(graph.node_of_cell.size());
   for (std::size_t c = 0; c < result.level.size(); ++c) {
@@ -69,7 +79,56 @@ CellPath find_cell_path(const CellGraph& graph, const FacetList& facets, const F
   return result;
 }
 
+namespace {
+
+// Joined cells have one root.
+class CellSets {
+ public:
+  explicit CellSets(std::size_t cells) : parent_(cells) {
+    std::iota(parent_.begin(), parent_.end(), 0U);
+  }
+  // Whether they were apart.
+  bool join(std::uint32_t c, std::uint32_t d) {
+    const std::uint32_t a = root(c);
+    const std::uint32_t b = root(d);
+    parent_[std::max(a, b)] = std::min(a, b);
+    return a != b;
+  }
+
+ private:
+  std::uint32_t root(std::uint32_t c) {
+    while (parent_[c] != c) c = parent_[c] = parent_[parent_[c]];
+    return c;
+  }
+  std::vector<std::uint32_t> parent_;
+};
+
+PathSolid solid_of(const TetComplex& complex, const std::vector<bool>& interior) {
+  PathSolid solid;
+  CellSets sets(interior.size());
+  for (std::uint32_t c = 0; c < interior.size(); ++c) {
+    if (!interior[c]) continue;
+    solid.volume += cell_volume(complex, c);
+    ++solid.cells;
+    ++solid.components;
+    for (const std::int32_t other : complex.neighbours[c]) {
+      if (other == kOutside || other > static_cast<std::int32_t>(c)) continue;
+      const auto d = static_cast<std::uint32_t>(other);
+      if (interior[d] && sets.join(c, d)) --solid.components;
+    }
+  }
+  return solid;
+}
+
+}  // namespace
+
 std::vector<PathSolid> path_solids(const TetComplex& complex, const CellPath& path) {
+  if (!path.path.nested) {
+    std::vector<PathSolid> solids(path.count());
+    tbb::parallel_for(std::size_t{0}, solids.size(),
+                      [&](std::size_t k) { solids[k] = solid_of(complex, path.interior[k]); });
+    return solids;
+  }
   const std::size_t cells = path.level.size();
   // Cells by level, the highest first.
   std::vector<std::size_t> row(path.count() + 2, 0);
@@ -79,12 +138,7 @@ std::vector<PathSolid> path_solids(const TetComplex& complex, const CellPath& pa
   std::vector<std::size_t> next(row.begin(), row.end() - 1);
   for (std::uint32_t c = 0; c < cells; ++c) order[next[path.level[c]]++] = c;
 
-  std::vector<std::uint32_t> parent(cells);
-  std::iota(parent.begin(), parent.end(), 0U);
-  const auto root = [&parent](std::uint32_t c) {
-    while (parent[c] != c) c = parent[c] = parent[parent[c]];
-    return c;
-  };
+  CellSets sets(cells);
   std::vector<PathSolid> solids(path.count());
   PathSolid solid;
   for (std::size_t k = path.count(); k-- > 0;) {
@@ -99,11 +153,7 @@ std::vector<PathSolid> path_solids(const TetComplex& complex, const CellPath& pa
         const auto d = static_cast<std::uint32_t>(other);
         // Those of this level that are yet to come find this one.
         if (path.level[d] < level || (path.level[d] == level && d > c)) continue;
-        const std::uint32_t a = root(c);
-        const std::uint32_t b = root(d);
-        if (a == b) continue;
-        parent[std::max(a, b)] = std::min(a, b);
-        --solid.components;
+        if (sets.join(c, d)) --solid.components;
       }
     }
     solids[k] = solid;

@@ -10,28 +10,34 @@
 
 namespace cellocut {
 
-// `graph`: of the same facets, areas and labels, at any lambda; it says which cells have a node.
-// Precondition: where L* is interior the cell is anchored (else supported facets would lie between
-// free cells, and minima would not be nested). O(facets).
+// `graph`: of the same facets and areas, at any lambda; it says which cells have a node. Nested
+// where support is by labels and cells with an interior L* are anchored (else supported facets
+// would lie between free cells). O(facets).
 ParametricProblem make_parametric_problem(const CellGraph& graph, const FacetList& facets,
-                                          const FacetAreas& areas, const CellLabels& initial);
+                                          const FacetAreas& areas);
 
 struct CellPath {
   FillPath path;
   // Per cell as FillPath::level per node; cells that are interior in every minimum have the
-  // highest.
+  // highest. Empty, as the flow is, where minima are not nested.
   std::vector<std::uint32_t> level;
   std::vector<Wide> facet_flow;  // FillPath::zone_flow, per facet
+  // Where minima are not nested: per labelling, which cells are interior.
+  std::vector<std::vector<bool>> interior;
 
   [[nodiscard]] std::size_t count() const { return path.areas.size(); }
+  // Whether labelling k, below count(), has the cell inside.
+  [[nodiscard]] bool holds(std::size_t k, std::size_t cell) const {
+    return path.nested ? level[cell] > k : interior[k][cell];
+  }
   // Labelling k, below count(). O(cells).
   [[nodiscard]] CellLabels labels(std::size_t k) const;
 };
 
 // As find_fill_path() on the problem of the cells, with its errors.
 CellPath find_cell_path(const CellGraph& graph, const FacetList& facets, const FacetAreas& areas,
-                        const CellLabels& initial, const Lambda& first, const Lambda& last,
-                        CutSolver& solver, Observer& observer);
+                        const Lambda& first, const Lambda& last, CutSolver& solver,
+                        Observer& observer);
 
 // The solid of a labelling.
 struct PathSolid {
@@ -39,7 +45,8 @@ struct PathSolid {
   std::int64_t cells = 0;       // interior
   std::int64_t components = 0;  // of interior cells, joined through facets
 };
-// By labelling. O(cells log cells): each labelling adds cells to the one after it.
+// By labelling. O(cells log cells) where they are nested, as each adds cells to the one after it;
+// else that for each labelling, in parallel.
 std::vector<PathSolid> path_solids(const TetComplex& complex, const CellPath& path);
 
 }  // namespace cellocut

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "cellocut/path/envelope.h"
+
 namespace cellocut {
 
 namespace {
@@ -119,7 +121,8 @@ FillPath PathSearch::run(const ParametricProblem& problem, const Lambda& first,
 
 FillPath find_fill_path(const ParametricProblem& problem, const Lambda& first, const Lambda& last,
                         CutSolver& solver, Observer& observer) {
-  return PathSearch(solver, observer).run(problem, first, last);
+  if (problem.nested()) return PathSearch(solver, observer).run(problem, first, last);
+  return find_envelope(problem, first, last, solver, observer);
 }
 
 LambdaInterval interval_of(const FillPath& path, std::size_t k) {

@@ -4,13 +4,14 @@
 // pair of supported and unsupported area that a minimum can have. The path is found by recursion on
 // the envelope (Eisner and Severance, J. ACM 23, 1976): where the lines that are minimal next to
 // both ends of a range are not the same, solve where they cross; either none is below, and the
-// crossing is a breakpoint, or what is below divides the range. Minimum cuts are nested
-// (parametric_problem.h), so each solve concerns only the nodes in which the ends of its range
-// differ. Everything is exact: breakpoints are fractions, capacities are multiplied out.
+// crossing is a breakpoint, or what is below divides the range. Everything is exact: breakpoints
+// are fractions, capacities are multiplied out.
 //
-// Where minima tie, the two canonical ones at a breakpoint are those of its sides: the largest
-// minimum there is the largest on the interval before it, the smallest the smallest on the one
-// after it.
+// Where minimum cuts are nested (parametric_problem.h) each solve concerns only the nodes in which
+// the ends of its range differ, and where minima tie, the two canonical ones at a breakpoint are
+// those of its sides: the largest minimum there is the largest on the interval before it, the
+// smallest the smallest on the one after it. Where they are not (support measured on facets) each
+// solve is one of the whole problem, and it takes one more for each labelling.
 #pragma once
 
 #include <cstdint>
@@ -27,9 +28,15 @@ struct FillPath {
   Lambda last;
   // Labelling k is minimal from breakpoint k - 1 to breakpoint k (ends of the range beyond), and in
   // the open interval between them the largest minimum. Ascending in lambda: areas of supported
-  // interface rise, those of unsupported fall, and each labelling holds the next.
+  // interface rise, those of unsupported fall, and each labelling holds the next where cuts are
+  // nested.
   std::vector<InterfaceAreas> areas;
   std::vector<Lambda> breakpoints;  // one less
+  bool nested = true;
+  // Where cuts are not nested: per labelling, which nodes are on its source side. The proof is then
+  // that at each breakpoint and both ends the value of a flow, checked by solve_wide, was what the
+  // labellings next to it cost; `level` and `zone_flow` are empty.
+  std::vector<std::vector<bool>> source_side;
   // Per node: in how many labellings it is on the source side; in the first ones, as they are
   // nested.
   std::vector<std::uint32_t> level;
@@ -45,10 +52,11 @@ struct FillPath {
   std::int64_t solved_nodes = 0;  // nodes of all problems
 };
 
-// The whole path over [first, last]. labellings are the same for every exact solver; the flow and
+// The whole path over [first, last]. Labellings are the same for every exact solver; the flow and
 // the figures of the search may differ. Takes fewer than two cuts for each labelling, each of the
-// nodes in which the ends of its range differ. Preconditions: first < last; areas sum to at most
-// 2^50. Errors: as solve_wide(); std::logic_error where cuts are not nested (not known to happen).
+// nodes in which the ends of its range differ; three of the whole problem where cuts are not
+// nested. Preconditions: first < last; areas sum to at most 2^50. Errors: as solve_wide();
+// std::logic_error where problem.nested() and cuts are not (not known to happen).
 FillPath find_fill_path(const ParametricProblem& problem, const Lambda& first, const Lambda& last,
                         CutSolver& solver, Observer& observer);
 
@@ -61,7 +69,7 @@ LambdaInterval interval_of(const FillPath& path, std::size_t k);
 
 // Whether labelling k has the node on its source side.
 inline bool holds(const FillPath& path, std::size_t k, std::size_t node) {
-  return path.level[node] > k;
+  return path.nested ? path.level[node] > k : path.source_side[k][node];
 }
 // The labelling that is the largest minimum at lambda: at a breakpoint that of the smaller lambda.
 // Precondition: lambda within the range.

@@ -1,5 +1,6 @@
 #include "cellocut/path/parametric_problem.h"
 
+#include <algorithm>
 #include <numeric>
 #include <stdexcept>
 
@@ -10,6 +11,23 @@ bool operator==(const Lambda& a, const Lambda& b) { return Wide{a.p} * b.q == Wi
 
 double to_double(const Lambda& lambda) {
   return static_cast<double>(lambda.p) / static_cast<double>(lambda.q);
+}
+
+// The continued fraction of both, as far as they agree (Stern and Brocot's tree).
+Lambda simplest_between(const Lambda& a, const Lambda& b) {
+  const std::int64_t whole = a.p / a.q;
+  if (Lambda{whole + 1, 1} < b) return {whole + 1, 1};
+  // a < x < b, and b is at most the next integer: x = whole + 1 / y.
+  const Lambda above{a.q, a.p - whole * a.q};  // 1 / (a - whole), where that is positive
+  const Lambda below{b.q, b.p - whole * b.q};  // 1 / (b - whole)
+  Lambda inverse;
+  if (above.q == 0) {
+    // a is an integer: y may be as large as it likes; the first integer above 1 / (b - whole).
+    inverse = {below.p / below.q + 1, 1};
+  } else {
+    inverse = simplest_between(below, above);
+  }
+  return {whole * inverse.p + inverse.q, inverse.p};
 }
 
 Wide cost_at(const InterfaceAreas& areas, const Lambda& lambda) {
@@ -26,36 +44,36 @@ Lambda crossing(const InterfaceAreas& a, const InterfaceAreas& b) {
   return {gained / common, lost / common};
 }
 
+bool ParametricProblem::nested() const {
+  const auto unsupported = [](const InterfaceAreas& areas) { return areas.supported == 0; };
+  return std::all_of(to_sink.begin(), to_sink.end(), unsupported) &&
+         std::all_of(edges.begin(), edges.end(),
+                     [&](const Edge& edge) { return unsupported(edge.areas); });
+}
+
 InterfaceAreas areas_of(const ParametricProblem& problem, const CutLabels& source_side) {
   InterfaceAreas areas = problem.constant;
   for (std::size_t i = 0; i < problem.node_count(); ++i) {
-    if (source_side[i] != 0) {
-      areas.unsupported += problem.unsupported_sink[i];
-    } else {
-      areas.supported += problem.supported[i];
-      areas.unsupported += problem.unsupported_source[i];
-    }
+    areas += source_side[i] != 0 ? problem.to_sink[i] : problem.to_source[i];
   }
   for (const ParametricProblem::Edge& edge : problem.edges) {
-    if (source_side[edge.from] != source_side[edge.to]) areas.unsupported += edge.area;
+    if (source_side[edge.from] != source_side[edge.to]) areas += edge.areas;
   }
   return areas;
 }
 
 WideProblem at_lambda(const ParametricProblem& problem, const Lambda& lambda) {
-  const Wide p = lambda.p;
-  const Wide q = lambda.q;
   WideProblem result;
   result.constant = cost_at(problem.constant, lambda);
   result.to_source.resize(problem.node_count());
   result.to_sink.resize(problem.node_count());
   for (std::size_t i = 0; i < problem.node_count(); ++i) {
-    result.to_source[i] = q * problem.supported[i] + p * problem.unsupported_source[i];
-    result.to_sink[i] = p * problem.unsupported_sink[i];
+    result.to_source[i] = cost_at(problem.to_source[i], lambda);
+    result.to_sink[i] = cost_at(problem.to_sink[i], lambda);
   }
   result.edges.reserve(problem.edges.size());
   for (const ParametricProblem::Edge& edge : problem.edges) {
-    result.edges.push_back({edge.from, edge.to, p * edge.area});
+    result.edges.push_back({edge.from, edge.to, cost_at(edge.areas, lambda)});
   }
   return result;
 }
@@ -72,17 +90,15 @@ Piece contract(const Piece& piece, const CutLabels& lower, const CutLabels& uppe
     if (lower[i] != 0 && upper[i] == 0) throw std::logic_error("fill path: cuts are not nested");
     if (lower[i] != 0) {
       place[i] = kInside;
-      part.constant.unsupported += whole.unsupported_sink[i];
+      part.constant += whole.to_sink[i];
     } else if (upper[i] == 0) {
       place[i] = kOut;
-      part.constant.supported += whole.supported[i];
-      part.constant.unsupported += whole.unsupported_source[i];
+      part.constant += whole.to_source[i];
     } else {
       place[i] = static_cast<std::uint32_t>(result.node.size());
       result.node.push_back(piece.node[i]);
-      part.supported.push_back(whole.supported[i]);
-      part.unsupported_source.push_back(whole.unsupported_source[i]);
-      part.unsupported_sink.push_back(whole.unsupported_sink[i]);
+      part.to_source.push_back(whole.to_source[i]);
+      part.to_sink.push_back(whole.to_sink[i]);
     }
   }
   for (std::size_t e = 0; e < whole.edges.size(); ++e) {
@@ -90,14 +106,14 @@ Piece contract(const Piece& piece, const CutLabels& lower, const CutLabels& uppe
     const std::uint32_t a = place[edge.from];
     const std::uint32_t b = place[edge.to];
     if (a < kInside && b < kInside) {
-      part.edges.push_back({a, b, edge.area});
+      part.edges.push_back({a, b, edge.areas});
       result.edge.push_back(piece.edge[e]);
     } else if (a < kInside || b < kInside) {
       const std::uint32_t node = a < kInside ? a : b;
       const std::uint32_t other = a < kInside ? b : a;
-      (other == kInside ? part.unsupported_source : part.unsupported_sink)[node] += edge.area;
+      (other == kInside ? part.to_source : part.to_sink)[node] += edge.areas;
     } else if (a != b) {
-      part.constant.unsupported += edge.area;
+      part.constant += edge.areas;
     }
   }
   return result;

@@ -1,5 +1,6 @@
 #include "cellocut/path/path_certificate.h"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -16,12 +17,18 @@ class PathChecker {
   CertificateReport run() {
     CertificateReport report;
     bool passed = true;
-    for (const auto& [name, check] :
-         {std::pair{"sizes", &PathChecker::sizes}, std::pair{"anchors", &PathChecker::anchors},
-          std::pair{"areas", &PathChecker::areas},
-          std::pair{"breakpoints", &PathChecker::breakpoints},
-          std::pair{"capacities", &PathChecker::capacities},
-          std::pair{"conservation", &PathChecker::conservation}}) {
+    using Check = std::pair<const char*, std::string (PathChecker::*)()>;
+    std::vector<Check> checks{{"sizes", &PathChecker::sizes},
+                              {"anchors", &PathChecker::anchors},
+                              {"areas", &PathChecker::areas},
+                              {"breakpoints", &PathChecker::breakpoints}};
+    if (path_.nested) {
+      checks.emplace_back("capacities", &PathChecker::capacities);
+      checks.emplace_back("conservation", &PathChecker::conservation);
+    } else {
+      checks.emplace_back("flows", &PathChecker::flows);
+    }
+    for (const auto& [name, check] : checks) {
       std::string defect = passed ? (this->*check)() : "an earlier check failed";
       passed = passed && defect.empty();
       report.checks.push_back({name, defect.empty(), std::move(defect)});
@@ -38,7 +45,12 @@ class PathChecker {
   std::string breakpoints();
   std::string capacities();
   std::string conservation();
+  std::string flows();
+  std::string sizes_of_labellings() const;
 
+  [[nodiscard]] InterfaceAreas areas_of(std::size_t f) const {
+    return {areas_.supported[f], areas_.quantised[f] - areas_.supported[f]};
+  }
   [[nodiscard]] std::size_t level(std::int32_t cell) const {
     return cell == kOutside ? 0 : claim_.path.level[static_cast<std::size_t>(cell)];
   }
@@ -60,9 +72,7 @@ class PathChecker {
 
 std::string PathChecker::sizes() {
   const std::size_t cells = claim_.complex.cells.size();
-  if (claim_.initial.size() != cells || claim_.path.level.size() != cells) {
-    return "labels or levels are not one per cell";
-  }
+  if (claim_.initial.size() != cells) return "labels are not one per cell";
   if (claim_.area_bits < 8 || claim_.area_bits > 50 || !(claim_.unit > 0) ||
       !std::isfinite(claim_.unit)) {
     return "the unit of areas is none";
@@ -72,6 +82,30 @@ std::string PathChecker::sizes() {
   }
   facets_ = list_facets(claim_.complex);
   areas_ = quantise_areas(claim_.complex, facets_, claim_.unit, claim_.area_bits);
+  if (claim_.supported == nullptr) {
+    areas_.supported = support_by_labels(facets_, areas_, claim_.initial);
+  } else {
+    areas_.supported = *claim_.supported;
+    if (areas_.supported.size() != facets_.size()) return "support is not one per facet";
+    for (std::size_t f = 0; f < facets_.size(); ++f) {
+      if (areas_.supported[f] < 0 || areas_.supported[f] > areas_.quantised[f]) {
+        return "facet " + std::to_string(f) + " has more support than area";
+      }
+    }
+  }
+  return sizes_of_labellings();
+}
+
+std::string PathChecker::sizes_of_labellings() const {
+  const std::size_t cells = claim_.complex.cells.size();
+  if (!path_.nested) {
+    const auto whole = [cells](const auto& labelling) { return labelling.size() == cells; };
+    const auto& interior = claim_.path.interior;
+    const bool sized =
+        interior.size() == highest_ && std::all_of(interior.begin(), interior.end(), whole);
+    return sized ? "" : "labellings are not one label per cell";
+  }
+  if (claim_.path.level.size() != cells) return "levels are not one per cell";
   if (claim_.path.facet_flow.size() != facets_.size()) return "flows are not one per facet";
   for (const std::uint32_t level : claim_.path.level) {
     if (level > highest_) return "a level is above the highest";
@@ -92,32 +126,50 @@ std::string PathChecker::anchors() {
     }
   }
   for (std::size_t c = 0; c < anchors_.size(); ++c) {
-    if (anchors_[c] == Anchor::interior && claim_.path.level[c] != highest_) {
-      return "cell " + std::to_string(c) + " is fixed interior and leaves";
+    if (anchors_[c] == Anchor::free) continue;
+    const bool interior = anchors_[c] == Anchor::interior;
+    bool kept = true;
+    if (path_.nested) {
+      kept = claim_.path.level[c] == (interior ? highest_ : 0);
+    } else {
+      for (std::size_t k = 0; k < highest_; ++k) kept = kept && claim_.path.holds(k, c) == interior;
     }
-    if (anchors_[c] == Anchor::exterior && claim_.path.level[c] != 0) {
-      return "cell " + std::to_string(c) + " is fixed exterior and is not";
+    if (!kept) {
+      return "cell " + std::to_string(c) +
+             (interior ? " is fixed interior and leaves" : " is fixed exterior and is not");
     }
   }
   return {};
 }
 
-// A facet is cut by the labellings between the levels of its two cells.
+// Where nested a facet is cut by the labellings between the levels of its two cells.
 std::string PathChecker::areas() {
+  if (!path_.nested) {
+    for (std::size_t k = 0; k < highest_; ++k) {
+      InterfaceAreas found;
+      for (std::size_t f = 0; f < facets_.size(); ++f) {
+        const std::int32_t other = facets_[f].other;
+        const bool beyond =
+            other != kOutside && claim_.path.holds(k, static_cast<std::size_t>(other));
+        if (claim_.path.holds(k, facets_[f].cell) != beyond) found += areas_of(f);
+      }
+      if (!(found == path_.areas[k])) {
+        return "the areas of labelling " + std::to_string(k) + " differ";
+      }
+    }
+    return {};
+  }
   std::vector<InterfaceAreas> change(highest_ + 1);
   for (std::size_t f = 0; f < facets_.size(); ++f) {
     const std::size_t a = level(static_cast<std::int32_t>(facets_[f].cell));
     const std::size_t b = level(facets_[f].other);
-    std::int64_t InterfaceAreas::*kind = is_supported(facets_[f], claim_.initial)
-                                             ? &InterfaceAreas::supported
-                                             : &InterfaceAreas::unsupported;
-    change[std::min(a, b)].*kind += areas_.quantised[f];
-    change[std::max(a, b)].*kind -= areas_.quantised[f];
+    const InterfaceAreas both = areas_of(f);
+    change[std::min(a, b)] += both;
+    change[std::max(a, b)] += {-both.supported, -both.unsupported};
   }
   InterfaceAreas now;
   for (std::size_t k = 0; k < highest_; ++k) {
-    now.supported += change[k].supported;
-    now.unsupported += change[k].unsupported;
+    now += change[k];
     if (!(now == path_.areas[k])) return "the areas of labelling " + std::to_string(k) + " differ";
   }
   return {};
@@ -154,6 +206,12 @@ std::string PathChecker::capacities() {
   return {};
 }
 
+std::string PathChecker::flows() {
+  // One for each breakpoint and end, and one for each labelling: what the search has solved.
+  const std::size_t needed = path_.breakpoints.size() + 2 + highest_;
+  return path_.solves >= static_cast<int>(needed) ? "" : "there are fewer flows than breakpoints";
+}
+
 std::string PathChecker::conservation() {
   struct Balance {
     Wide from_source = 0;  // what anchors can give
@@ -168,7 +226,7 @@ std::string PathChecker::conservation() {
     const Lambda& lambda = lambda_of(level(cell));
     const Wide area = areas_.quantised[f];
     if (anchor(other) == Anchor::interior) {
-      here.from_source += area * (is_supported(facets_[f], claim_.initial) ? lambda.q : lambda.p);
+      here.from_source += cost_at(areas_of(f), lambda);
     } else if (anchor(other) == Anchor::exterior) {
       here.to_sink += area * lambda.p;
     } else if (level(cell) == level(other)) {

@@ -23,6 +23,10 @@
 // (Facets between a point that the user has put inside and free cells are not supported: they cost
 // the same at every lambda, are drawn from as far as they go, and cancel.)
 //
+// Where support is measured on facets labellings are not nested, and this proof does not hold.
+// There the proof is that of fill_path.h: flows of the search itself, which solve_wide has checked,
+// one at each breakpoint and end.
+//
 // Anchors, areas, levels and flows are checked on the complex itself. With the solvers and the
 // contraction of anchored cells this shares nothing; anchors of L* and quantised areas are those of
 // energy.h.
@@ -42,6 +46,8 @@ struct PathClaim {
   double unit;                // length of one relative unit, in input units
   int area_bits;
   const CellPath& path;
+  // As CertificateClaim::supported.
+  const std::vector<std::int64_t>* supported = nullptr;
 };
 
 // Checks, in this order, each reported by name:
@@ -51,6 +57,8 @@ struct PathClaim {
 //   breakpoints   ascending within the range; both neighbours cost the same there
 //   capacities    |flow| <= capacity within each zone
 //   conservation  what each free cell draws and passes on, as above
+// or, where labellings are not nested, in place of the last two:
+//   flows         the search had a flow for each breakpoint and end
 // Precondition: the complex is sound (as make_canonical leaves it). Never throws for a wrong claim
 // about it; a later check is not passed where an earlier one makes it meaningless. O(cells +
 // labellings).

@@ -176,9 +176,10 @@ class LazyNearest {
 void choose_lambda(RemeshResult& result, CutSolver& solver, LazyNearest& nearest_point,
                    Observer& observer) {
   const CellPath path = find_path(result, kAutoFirst, kAutoLast, solver, observer);
-  const std::vector<SheetSides> sides =
-      measure_sheet_sides(result.complex, result.facets, result.areas, result.initial_label, path,
-                          nearest_point(), result.derived.epsilon * result.frame.unit, observer);
+  const std::vector<SheetSides> sides = measure_sheet_sides(
+      sample_sheets(result.complex, result.facets, result.areas, result.initial_label,
+                    nearest_point(), result.derived.epsilon * result.frame.unit, observer),
+      path);
   // Terms with which the problem's capacities, both directions of every facet, stay in range.
   const std::int64_t largest_term =
       std::min(kLargestLambdaTerm, kCapacityLimit / 2 / (result.areas.sum + 1));

@@ -31,8 +31,10 @@ void compare(const std::string& truth_file, const std::string& damaged_file, int
   const CellPath path = find_path(result, {1, 1}, {1000, 1}, *solvers::make("push_relabel"));
   const std::vector<PathSolid> solids = path_solids(result.complex, path);
   const std::vector<SheetSides> sides = measure_sheet_sides(
-      result.complex, result.facets, result.areas, result.initial_label, path,
-      NearestTriangle(damaged), result.derived.epsilon * result.frame.unit, silent_observer());
+      sample_sheets(result.complex, result.facets, result.areas, result.initial_label,
+                    NearestTriangle(damaged), result.derived.epsilon * result.frame.unit,
+                    silent_observer()),
+      path);
 
   // Volumes by level, and of them what is in the truth.
   std::vector<double> volume(path.count() + 2, 0.0);

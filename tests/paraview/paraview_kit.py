@@ -181,9 +181,64 @@ class Pictures(KitCase):
                 for frame in frames:
                     os.remove(frame)
 
+    def test_orbit_of_each_scene(self):
+        solvers = compare(PLANE, "--backends", "cgal", "--solvers", "bk,ibfs")[0]
+        for scene, file in (("section", BUNNY), ("ambiguous", TABLE), ("saturation", BUNNY),
+                            ("disagreement", solvers)):
+            with self.subTest(scene):
+                run = pvbatch("orbit.py", file, "--scene", scene, "--frames", "2", "--output", path("turn.png"),
+                              "--size", "200x150")
+                self.assertEqual(run.returncode, 0, run.stderr)
+                for frame in sorted(glob.glob(path("turn.*.png"))):
+                    self.shares(frame)
+                    os.remove(frame)
+
     def test_labelled_cells(self):
         shares, _ = self.picture("labelled_cells.py", f"{BUNNY}/cells.vtu", "--mode", "section")
         self.assert_shows(shares, SOLID=LEGEND, PALE=LEGEND)
+
+
+# Every macro in turn on an open run, within ParaView itself; a line and a picture for each.
+WITHIN = """
+import os
+import sys
+import traceback
+from paraview import simple
+log = open({log!r}, "w")
+try:
+    sys.path[:0] = [{kit!r}]
+    opened = simple.XMLMultiBlockDataReader(FileName=[{run!r}])
+    for name in {names!r}:
+        simple.SetActiveSource(simple.XMLUnstructuredGridReader(FileName=[{compared!r}])
+                               if name == "disagreement" else opened)
+        __import__(name).main([])
+        simple.SaveScreenshot(name + ".png", ImageResolution=[600, 450])
+        print("drawn", name, simple.GetActiveSource() == opened, file=log)
+except BaseException:
+    traceback.print_exc(file=log)
+finally:
+    log.close()
+    os._exit(0)
+"""
+
+
+class Graphical(KitCase):
+    def test_macros_within_paraview(self):
+        names = ["section", "absorbed", "ambiguous", "saturation", "orbit", "disagreement"]
+        with open(path("within.py"), "w", encoding="utf-8") as script:
+            script.write(WITHIN.format(kit=os.path.abspath(KIT), log=path("within.log"), names=names,
+                                       run=path(f"{TABLE}/run.vtm"),
+                                       compared=compare(PLANE, "--backends", "cgal", "--solvers", "bk,ibfs")[0]))
+        subprocess.run([os.path.join(KIT, "with_python"), "paraview", "--script=" + path("within.py")],
+                       cwd=FOLDER, timeout=300, check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
+                       env=dict(os.environ, XDG_CONFIG_HOME=path("config"), XDG_RUNTIME_DIR=FOLDER))
+        with open(path("within.log"), encoding="utf-8") as log:
+            drawn = log.read().splitlines()
+        # What was selected is selected afterwards, for the next macro.
+        self.assertEqual(drawn, [f"drawn {name} {name != 'disagreement'}" for name in names])
+        self.assert_shows(self.shares(path("section.png")), SOLID=LEGEND, PALE=LEGEND, OUTLINE=0.001)
+        self.assert_shows(self.shares(path("absorbed.png")), ABSORBED=LEGEND)
+        self.assert_shows(self.shares(path("ambiguous.png")), MARKED=LEGEND)
 
 
 # Prints for each array of a .vtu its name and a hash of its bytes, by the VTK of whoever runs it.

@@ -72,8 +72,11 @@ def build(options, view):
         build_backends([kit.open_file(path) for path in paths[:2]], paths, options, view)
 
 
+add_arguments = kit.add_plane
+
+
 def main(arguments=None):
-    kit.run("disagreement", __doc__, build, kit.add_plane, arguments)
+    kit.run("disagreement", __doc__, build, add_arguments, arguments)
 
 
 if kit.start(__name__):

@@ -52,15 +52,28 @@ def stage_folder(path):
     return os.path.dirname(path) or "." if path.endswith(".vtm") else None
 
 
+def property_of(source, name):
+    """None if there is no such property. (getattr() fails where an older ParaView had it.)"""
+    return getattr(source, name) if name in source.ListProperties() else None
+
+
+def file_of(source):
+    """The file that a reader reads; None for filters."""
+    for name in ("FileName", "FileNames"):
+        value = property_of(source, name)
+        if value:
+            return value if isinstance(value, str) else value[0]
+    return None
+
+
 def files_of_active_source():
     """What is selected in the pipeline browser, or what that was made from."""
     source = simple.GetActiveSource()
     while source is not None:
-        for name in ("FileName", "FileNames"):
-            value = getattr(source, name, None)
-            if value:
-                return [value] if isinstance(value, str) else [value[0]]
-        source = getattr(source, "Input", None)
+        file = file_of(source)
+        if file:
+            return [file]
+        source = property_of(source, "Input")
     raise KitError("name a file, or open one first and select it in the pipeline browser")
 
 
@@ -83,9 +96,7 @@ def open_file(path):
     if not os.path.exists(path):
         raise KitError(f"{path}: no such file")
     for source in simple.GetSources().values():
-        names = getattr(source, "FileName", None)
-        names = [names] if isinstance(names, str) else names or []
-        if any(os.path.abspath(name) == os.path.abspath(path) for name in names):
+        if os.path.abspath(file_of(source) or "") == os.path.abspath(path):
             simple.UpdatePipeline(proxy=source)
             return source
     kind = os.path.splitext(path)[1].lower()
@@ -384,6 +395,17 @@ def clear(view):
         simple.Hide(source, view)
 
 
+def settle(selected):
+    """For who works on in the graphical program: no handles of planes over the scene, and what was selected
+    before (or the first file) selected again, for the next macro."""
+    sources = list(simple.GetSources().values())
+    for source in sources:
+        simple.HideInteractiveWidgets(source)
+    files = [source for source in sources if file_of(source)]
+    if selected or files:
+        simple.SetActiveSource(selected or files[0])
+
+
 def run(script, text, build, add_arguments, arguments=None, scene=True):
     """Parses, builds, saves. In the graphical program what is selected takes the place of files.
 
@@ -408,7 +430,10 @@ def run(script, text, build, add_arguments, arguments=None, scene=True):
         if scene:
             options.files = options.files or files_of_active_source()
             clear(view)
+        selected = simple.GetActiveSource()
         build(options, view)
+        if graphical():
+            settle(selected)
         simple.Render(view)
         if scene and options.screenshot:
             simple.SaveScreenshot(options.screenshot, view, ImageResolution=options.size,

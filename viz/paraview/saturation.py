@@ -32,8 +32,11 @@ def build(options, view):
     kit.look(view, box, kit.oblique(options.normal, options.up), options.up)
 
 
+add_arguments = kit.add_plane
+
+
 def main(arguments=None):
-    kit.run("saturation", __doc__, build, kit.add_plane, arguments)
+    kit.run("saturation", __doc__, build, add_arguments, arguments)
 
 
 if kit.start(__name__):

@@ -8,25 +8,12 @@
 
 namespace cellocut {
 
-namespace {
-
-// A supported facet: in how many labellings the cell in front of it is solid, and the place behind.
-struct Sample {
-  bool counts = false;
-  std::uint32_t front = 0;
-  std::uint32_t behind = 0;
-};
-
-}  // namespace
-
-std::vector<SheetSides> measure_sheet_sides(const TetComplex& complex, const FacetList& facets,
-                                            const FacetAreas& areas, const CellLabels& initial,
-                                            const CellPath& path, const NearestTriangle& input,
-                                            double offset, Observer& observer) {
-  const auto level = [&path](std::int32_t cell) {
-    return cell == kOutside ? 0U : path.level[static_cast<std::size_t>(cell)];
-  };
-  std::vector<Sample> samples(facets.size());
+std::vector<SheetSample> sample_sheets(const TetComplex& complex, const FacetList& facets,
+                                       const FacetAreas& areas, const CellLabels& initial,
+                                       const NearestTriangle& input, double offset,
+                                       Observer& observer) {
+  // An area of -1 leaves the facet out.
+  std::vector<SheetSample> samples(facets.size(), SheetSample{-1, kOutside, kOutside});
   tbb::parallel_for(std::size_t{0}, facets.size(), [&](std::size_t f) {
     if (f % 4096 == 0) observer.check();
     const Facet& facet = facets[f];
@@ -39,21 +26,30 @@ std::vector<SheetSides> measure_sheet_sides(const TetComplex& complex, const Fac
     if (!nearest.found() || nearest.distance < offset / 4) return;
     const Point3 place = nearest.point - (2 * offset / nearest.distance) * (centre - nearest.point);
     const bool first_in_front = initial[facet.cell] == kExterior;
-    samples[f] = {true, level(first_in_front ? static_cast<std::int32_t>(facet.cell) : facet.other),
-                  level(locate_from(complex, place, facet.cell))};
+    samples[f] = {static_cast<double>(areas.quantised[f]) / areas.scale,
+                  first_in_front ? static_cast<std::int32_t>(facet.cell) : facet.other,
+                  locate_from(complex, place, facet.cell)};
   });
   observer.check();
-  // Labellings from `front` on have the front outside; those before `behind` have it solid behind.
+  std::erase_if(samples, [](const SheetSample& s) { return s.area < 0; });
+  return samples;
+}
+
+std::vector<SheetSides> measure_sheet_sides(const std::vector<SheetSample>& samples,
+                                            const CellPath& path) {
+  const auto level = [&path](std::int32_t cell) {
+    return cell == kOutside ? 0U : path.level[static_cast<std::size_t>(cell)];
+  };
+  // Labellings from the front's level on have the front outside; those before the level behind
+  // have it solid there.
   const std::size_t count = path.count();
   std::vector<SheetSides> change(count + 1);
-  for (std::size_t f = 0; f < samples.size(); ++f) {
-    const Sample& s = samples[f];
-    if (!s.counts) continue;
-    const double area = static_cast<double>(areas.quantised[f]) / areas.scale;
-    const std::size_t turn = std::max(s.front, s.behind);
-    change[s.front].one_sided += area;
-    change[turn].one_sided -= area;
-    change[turn].open += area;
+  for (const SheetSample& s : samples) {
+    const std::size_t front = level(s.front);
+    const std::size_t turn = std::max(front, std::size_t{level(s.behind)});
+    change[front].one_sided += s.area;
+    change[turn].one_sided -= s.area;
+    change[turn].open += s.area;
   }
   std::vector<SheetSides> sides(count);
   SheetSides now;

@@ -10,6 +10,7 @@
 #include <set>
 
 #include "backends/backends.h"
+#include "cellocut/base/memory.h"
 #include "cellocut/base/stopwatch.h"
 #include "cellocut_version.h"
 #include "solvers/solvers.h"
@@ -161,7 +162,7 @@ class Comparison {
       const Stopwatch stopwatch;
       certify(instance, result);
       instance.stages = result.stages;
-      instance.stages.push_back({"certificates", stopwatch.seconds()});
+      instance.stages.push_back({"certificates", stopwatch.seconds(), peak_memory_bytes()});
       instance.energy_unit =
           result.frame.unit * result.frame.unit /
           (result.areas.scale * static_cast<double>(result.derived.lambda_fill.denominator));

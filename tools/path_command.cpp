@@ -9,6 +9,7 @@
 #include <numeric>
 
 #include "backends/backends.h"
+#include "cellocut/base/memory.h"
 #include "cellocut/base/stopwatch.h"
 #include "cellocut/pipeline.h"
 #include "cellocut_version.h"
@@ -202,11 +203,11 @@ int run_path(PathArguments& a) {
   observer.stage("path");
   Stopwatch stopwatch;
   const CellPath path = find_path(result, range.first, range.last, *solver, observer);
-  result.stages.push_back({"path", stopwatch.seconds()});
+  result.stages.push_back({"path", stopwatch.seconds(), peak_memory_bytes()});
   observer.stage("certificate");
   stopwatch.restart();
   const CertificateReport certificate = certify_path(result, options, path);
-  result.stages.push_back({"certificate", stopwatch.seconds()});
+  result.stages.push_back({"certificate", stopwatch.seconds(), peak_memory_bytes()});
   const std::vector<PathEntry> entries =
       path_entries(result, path, path_solids(result.complex, path));
 
@@ -222,7 +223,9 @@ int run_path(PathArguments& a) {
                 {"range", {to_double(range.first), to_double(range.last)}}}}};
   Json stages = Json::array();
   for (const StageTime& stage : result.stages) {
-    stages.push_back({{"name", stage.name}, {"seconds", stage.seconds}});
+    stages.push_back({{"name", stage.name},
+                      {"seconds", stage.seconds},
+                      {"peak_memory_bytes", stage.peak_memory}});
   }
   report["stages"] = stages;
   report["counts"] = {{"cells", result.complex.cells.size()},

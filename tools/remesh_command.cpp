@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "backends/backends.h"
+#include "cellocut/base/memory.h"
 #include "cellocut/base/stopwatch.h"
 #include "cellocut/pipeline.h"
 #include "solvers/solvers.h"
@@ -165,19 +166,18 @@ void complete_options(RemeshArguments& a) {
   require_writable({a.output, a.vtu, a.vtp, a.common.json, a.keep_invalid, a.problem});
 }
 
-void print_summary(const RemeshResult& result, const RemeshArguments& a, double read_seconds,
-                   double write_seconds) {
+void print_summary(const RemeshResult& result, const RemeshArguments& a,
+                   const std::vector<StageTime>& stages) {
   if (a.common.quiet || a.output == "-" || a.common.json == "-" || a.vtu == "-" || a.vtp == "-") {
     return;
   }
   fmt::print("{:<20} {:>9}\n", "stage", "seconds");
-  double total = read_seconds + write_seconds;
-  fmt::print("{:<20} {:>9.3f}\n", "read", read_seconds);
-  for (const StageTime& stage : result.stages) {
+  double total = 0;
+  for (const StageTime& stage : stages) {
     fmt::print("{:<20} {:>9.3f}\n", stage.name, stage.seconds);
     total += stage.seconds;
   }
-  fmt::print("{:<20} {:>9.3f}\n{:<20} {:>9.3f}\n", "write", write_seconds, "total", total);
+  fmt::print("{:<20} {:>9.3f}\n", "total", total);
   fmt::print("peak memory {:.2f} GB\n", static_cast<double>(peak_memory_bytes()) * 1e-9);
   fmt::print("cells {}, facets {}, nodes {}, edges {}\n", result.complex.cells.size(),
              result.facets.size(), result.graph.problem.node_count(),
@@ -300,9 +300,10 @@ int run_remesh(RemeshArguments& a) {
   Stopwatch stopwatch;
   observer.stage("read");
   const TriangleSoup input = read_input(a.input, a.input_format);
-  const double read_seconds = stopwatch.seconds();
+  std::vector<StageTime> stages{{"read", stopwatch.seconds(), peak_memory_bytes()}};
 
   const RemeshResult result = remesh(input, a.options(), *tetrahedralizer, *solver, observer);
+  stages.insert(stages.end(), result.stages.begin(), result.stages.end());
 
   stopwatch.restart();
   observer.check();
@@ -323,13 +324,11 @@ int run_remesh(RemeshArguments& a) {
     write_mesh(result.surface, a.keep_invalid,
                format_of_path(a.keep_invalid).value_or(MeshFormat::obj));
   }
-  const double write_seconds = stopwatch.seconds();
+  stages.push_back({"write", stopwatch.seconds(), peak_memory_bytes()});
   observer.clear();
   if (!a.common.json.empty()) {
-    const RunFacts facts{a.input,         code == kDone ? a.output : "",
-                         a.backend,       a.solver,
-                         limit.threads(), read_seconds,
-                         write_seconds};
+    const RunFacts facts{
+        a.input, code == kDone ? a.output : "", a.backend, a.solver, limit.threads(), stages};
     write_text(a.common.json, remesh_json(result, a.options(), input, facts).dump(2) + "\n");
   }
   if (code != kDone) {
@@ -343,7 +342,7 @@ int run_remesh(RemeshArguments& a) {
   if (result.derived.epsilon_below_step && !a.common.quiet) {
     print_error("warning: epsilon is below one grid step, thin parts may perforate");
   }
-  print_summary(result, a, read_seconds, write_seconds);
+  print_summary(result, a, stages);
   return kDone;
 }
 

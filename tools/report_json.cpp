@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "cellocut/base/memory.h"
 #include "cellocut_version.h"
 #include "tools/session.h"
 
@@ -165,14 +166,14 @@ Json fill_choice_json(const FillChoice& choice) {
   return report;
 }
 
-Json stages_json(const RemeshResult& result, const RunFacts& facts) {
+Json stages_json(const RunFacts& facts) {
   Json stages = Json::array();
-  const auto add = [&](const std::string& name, double seconds) {
-    stages.push_back({{"name", name}, {"seconds", seconds}, {"threads", facts.threads}});
-  };
-  add("read", facts.read_seconds);
-  for (const StageTime& stage : result.stages) add(stage.name, stage.seconds);
-  add("write", facts.write_seconds);
+  for (const StageTime& stage : facts.stages) {
+    stages.push_back({{"name", stage.name},
+                      {"seconds", stage.seconds},
+                      {"threads", facts.threads},
+                      {"peak_memory_bytes", stage.peak_memory}});
+  }
   return stages;
 }
 
@@ -224,7 +225,7 @@ Json remesh_json(const RemeshResult& result, const RemeshOptions& options,
                      {"triangles", input.triangles.size()},
                      {"skipped_polygons", input.skipped_polygons}};
   report["parameters"] = parameters_json(result, options);
-  report["stages"] = stages_json(result, facts);
+  report["stages"] = stages_json(facts);
   report["peak_memory_bytes"] = peak_memory_bytes();
   report["proxy"] = {{"faces_before", result.proxy.faces_before},
                      {"faces", result.proxy.mesh.triangles.size()},

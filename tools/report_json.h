@@ -14,8 +14,7 @@ struct RunFacts {
   std::string backend;
   std::string solver;
   int threads = 1;
-  double read_seconds = 0;
-  double write_seconds = 0;
+  std::vector<StageTime> stages;  // with reading and writing
 };
 
 // `output` of a report: path, validity, counts, components.

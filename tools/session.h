@@ -67,9 +67,6 @@ class ThreadLimit {
 // signal.
 void install_signal_handlers();
 
-// Peak resident memory of this process so far.
-long long peak_memory_bytes();
-
 // Errors: UsageError where a file could not be created beside a path: before the work, not after
 // it. Empty paths and "-" are fine.
 void require_writable(const std::vector<std::string>& paths);

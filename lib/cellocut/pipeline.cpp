@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "cellocut/base/errors.h"
+#include "cellocut/base/memory.h"
 #include "cellocut/base/stopwatch.h"
 #include "cellocut/energy/facet_support.h"
 #include "cellocut/field/distance_field.h"
@@ -34,7 +35,7 @@ class StageClock {
     observer_.stage(name);
     const Stopwatch stopwatch;
     auto product = work();
-    stages_.push_back({name, stopwatch.seconds()});
+    stages_.push_back({name, stopwatch.seconds(), peak_memory_bytes()});
     return product;
   }
 

@@ -89,6 +89,7 @@ struct RemeshOptions {
 struct StageTime {
   std::string name;
   double seconds = 0;
+  std::int64_t peak_memory = 0;  // bytes: the process's largest resident set up to its end
 };
 
 // What the options come to on a given input.

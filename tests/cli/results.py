@@ -74,7 +74,11 @@ class Report(ProgramCase):
                 part = part[key]
             self.assertEqual(set(keys.split()) - set(part), set(), place)
         for stage in report["stages"]:
-            self.assertEqual(set(stage), {"name", "seconds", "threads"})
+            self.assertEqual(set(stage), {"name", "seconds", "threads", "peak_memory_bytes"})
+        peaks = [stage["peak_memory_bytes"] for stage in report["stages"]]
+        self.assertEqual(peaks, sorted(peaks))
+        self.assertLess(1e6, peaks[0])
+        self.assertLessEqual(peaks[-1], report["peak_memory_bytes"])
         for component in report["output"]["components"]:
             self.assertEqual(set(component) & {"triangles", "volume"}, {"triangles", "volume"})
 

@@ -8,8 +8,6 @@
 // the volume IoU of its cells with the truth, a cell counting as inside where its centroid is.
 #include <fmt/core.h>
 
-#include "backends/backends.h"
-#include "cellocut/measure/volume_overlap.h"
 #include "cellocut/mesh/mesh_file.h"
 #include "cellocut/path/one_sided.h"
 #include "cellocut/pipeline.h"
@@ -20,14 +18,8 @@ namespace {
 
 using namespace cellocut;
 
-void compare(const std::string& truth_file, const std::string& damaged_file, int resolution) {
-  const InsideTest truth(read_mesh(truth_file));
-  if (!truth.closed()) throw InputError("not closed", truth_file);
-  RemeshOptions options;
-  options.resolution = resolution;
-  options.lambda_fill = {1, 1};
-  const TriangleSoup damaged = read_mesh(damaged_file);
-  const RemeshResult result = pose_cut(damaged, options, *backends::make("cgal"));
+void compare(const TruthPair& pair) {
+  const auto& [name, truth, damaged, result] = pair;
   const CellPath path = find_path(result, {1, 1}, {1000, 1}, *solvers::make("push_relabel"));
   const std::vector<PathSolid> solids = path_solids(result.complex, path);
   const std::vector<SheetSides> sides = measure_sheet_sides(
@@ -62,8 +54,8 @@ void compare(const std::string& truth_file, const std::string& damaged_file, int
     const double to = to_double(interval.to);
     if (to < 1.001 * from && k > 0 && k + 1 < path.count()) continue;
     const double iou = common[k + 1] / (volume[k + 1] + in_truth - common[k + 1]);
-    fmt::print("{},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{},{:.6g},{:.6g},{:.4f}\n",
-               damaged_file, from, to, static_cast<double>(path.path.areas[k].supported) * area,
+    fmt::print("{},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{},{:.6g},{:.6g},{:.4f}\n", name, from,
+               to, static_cast<double>(path.path.areas[k].supported) * area,
                static_cast<double>(path.path.areas[k].unsupported) * area, solids[k].volume / cube,
                slab / cube, solids[k].components, sides[k].one_sided, sides[k].open, iou);
   }

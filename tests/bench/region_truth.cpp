@@ -14,8 +14,6 @@
 #include <algorithm>
 #include <numeric>
 
-#include "backends/backends.h"
-#include "cellocut/measure/volume_overlap.h"
 #include "cellocut/mesh/mesh_file.h"
 #include "cellocut/path/auto_fill.h"
 #include "cellocut/path/one_sided.h"
@@ -71,14 +69,8 @@ std::vector<std::size_t> best_of_each(const std::vector<std::vector<double>>& ga
   return best;
 }
 
-void compare(const std::string& truth_file, const std::string& damaged_file, int resolution) {
-  const InsideTest truth(read_mesh(truth_file));
-  if (!truth.closed()) throw InputError("not closed", truth_file);
-  RemeshOptions options;
-  options.resolution = resolution;
-  options.lambda_fill = {1, 1};
-  const TriangleSoup damaged = read_mesh(damaged_file);
-  const RemeshResult result = pose_cut(damaged, options, *backends::make("cgal"));
+void compare(const TruthPair& pair) {
+  const auto& [name, truth, damaged, result] = pair;
   const CellPath path = find_path(result, kAutoFirst, kAutoLast, *solvers::make("push_relabel"));
   const std::size_t count = path.count();
   const std::vector<SheetSample> samples = sample_sheets(
@@ -164,7 +156,7 @@ void compare(const std::string& truth_file, const std::string& damaged_file, int
       return path.holds(region == kNoRegion ? model : choice[region], c);
     };
   };
-  fmt::print("{},{},{},{:.4f},{:.4f},{:.4f},{:.4f}\n", damaged_file, count, regions.count,
+  fmt::print("{},{},{},{:.4f},{:.4f},{:.4f},{:.4f}\n", name, count, regions.count,
              overlap([&](std::size_t c) { return path.holds(model, c); }),
              overlap(chosen(by_sides)), best_model, overlap(chosen(by_volume)));
 }

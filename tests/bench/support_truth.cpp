@@ -7,9 +7,7 @@
 // counting as inside where its centroid is.
 #include <fmt/core.h>
 
-#include "backends/backends.h"
 #include "cellocut/energy/facet_support.h"
-#include "cellocut/measure/volume_overlap.h"
 #include "cellocut/mesh/mesh_file.h"
 #include "cellocut/pipeline.h"
 #include "solvers/solvers.h"
@@ -19,13 +17,8 @@ namespace {
 
 using namespace cellocut;
 
-void compare(const std::string& truth_file, const std::string& damaged_file, int resolution) {
-  const InsideTest truth(read_mesh(truth_file));
-  if (!truth.closed()) throw InputError("not closed", truth_file);
-  RemeshOptions options;
-  options.resolution = resolution;
-  options.lambda_fill = {1, 1};
-  RemeshResult result = pose_cut(read_mesh(damaged_file), options, *backends::make("cgal"));
+void compare(TruthPair pair) {
+  auto& [name, truth, damaged, result] = pair;
   std::vector<double> volume(result.complex.cells.size());
   std::vector<bool> inside(volume.size());
   double in_truth = 0;
@@ -60,7 +53,7 @@ void compare(const std::string& truth_file, const std::string& damaged_file, int
         areas[0] += static_cast<double>((*supported)[f]);
         areas[1] += static_cast<double>(result.areas.quantised[f] - (*supported)[f]);
       }
-      fmt::print("{},{},{},{:.6g},{:.6g},{:.4f}\n", damaged_file, rule, lambda,
+      fmt::print("{},{},{},{:.6g},{:.6g},{:.4f}\n", name, rule, lambda,
                  areas[0] / result.areas.scale, areas[1] / result.areas.scale,
                  common / (all + in_truth - common));
     }

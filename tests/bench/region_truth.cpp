@@ -12,7 +12,6 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <numeric>
 
 #include "cellocut/mesh/mesh_file.h"
 #include "cellocut/path/auto_fill.h"
@@ -97,27 +96,12 @@ void compare(const TruthPair& pair) {
     }
     return common / (all + truth_volume - common);
   };
-  const auto one_sided = [&](const auto& holds) {
-    double sum = 0;
-    for (const SheetSample& s : samples) {
-      const bool front = s.front != kOutside && holds(static_cast<std::size_t>(s.front));
-      const bool behind = s.behind != kOutside && holds(static_cast<std::size_t>(s.behind));
-      if (behind && !front) sum += s.area;
-    }
-    return sum;
-  };
-
+  const std::vector<SheetSides> model_sides = measure_sheet_sides(samples, path);
   std::size_t model = 0;
-  double model_sides = -1;
   double best_model = 0;
   for (std::size_t k = 0; k < count; ++k) {
-    const auto holds = [&](std::size_t c) { return path.holds(k, c); };
-    const double sides = one_sided(holds);
-    if (sides >= model_sides) {
-      model_sides = sides;
-      model = k;
-    }
-    best_model = std::max(best_model, overlap(holds));
+    if (model_sides[k].one_sided >= model_sides[model].one_sided) model = k;
+    best_model = std::max(best_model, overlap([&](std::size_t c) { return path.holds(k, c); }));
   }
 
   // The gains of a region's labellings, the rest being as in the model's.

@@ -123,6 +123,19 @@ class Kills(SuiteCase):
         self.assertEqual({result["status"] for result in self.results().values()}, {"ok"})
         self.assertEqual(sorted([self.starts("holed"), self.starts("tetrahedron")]), [1, 2])
 
+    def test_an_engine_that_stopped_with_tables_goes_on(self):
+        go = self.folder / "go"
+        self.write_suite({
+            "gated": [f"command: \"sh -c 'test -e {go} || {{{{ kill -9 $PPID; sleep 60; }}}}; cp {{input}} {{output}}'\"",
+                      "output: obj"],
+            "copy": ["command: cp {input} {output}", "output: obj"]})
+        self.bench(code=4)  # as often as the engine tries it
+        self.assertIn("2 of 4 runs", (self.out / "table.md").read_text(encoding="utf-8"))
+        go.touch()
+        self.bench()
+        self.assertEqual({result["status"] for result in self.results().values()}, {"ok"})
+        self.assertIn("4 of 4 runs", (self.out / "table.md").read_text(encoding="utf-8"))
+
     def test_interruption_ends_the_jobs(self):
         self.write_suite({"gated": self.gated()})
         process = self.start("--threads", "1")

@@ -2,17 +2,22 @@
 
 #include <algorithm>
 #include <numeric>
+#include <stdexcept>
 
 #include "cellocut/path/envelope.h"
+#include "cellocut/path/piece.h"
 
 namespace cellocut {
 
 namespace {
 
-// A flow on a part of the problem at a breakpoint, and the largest minimum there.
-struct ZoneProof {
-  std::vector<std::uint32_t> node;  // of the whole problem, on the source side of that minimum
-  std::vector<std::uint32_t> edge;  // of the whole problem, with its flow
+// What changes in one part of the problem at one lambda.
+struct Change {
+  Lambda lambda;
+  InterfaceAreas before;  // of the largest minimum there, and of the smallest
+  InterfaceAreas after;
+  std::vector<std::uint32_t> node;  // of the whole problem, on the source side of the largest
+  std::vector<std::uint32_t> edge;  // of the part, as in the whole problem, with a flow at lambda
   std::vector<Wide> flow;
 };
 
@@ -24,17 +29,19 @@ class PathSearch {
 
  private:
   WideCut solve(const Piece& piece, const Lambda& lambda);
-  // Finds the breakpoints within the open range, in ascending order. `before` and `after` are the
-  // lines that are minimal next to its ends.
-  void divide(const Piece& piece, const InterfaceAreas& before, const InterfaceAreas& after);
-  // `before`: the areas of the largest minimum.
-  void add_breakpoint(const Piece& piece, const Lambda& lambda, const InterfaceAreas& before,
-                      WideCut cut);
+  // Finds what changes within the open range, in each connected part on its own: parts that no edge
+  // joins have paths that know nothing of each other.
+  void divide(Piece piece);
+  void divide_connected(const Piece& piece);
+  void add_change(const Piece& piece, const Lambda& lambda, const InterfaceAreas& before,
+                  const InterfaceAreas& after, WideCut cut);
+  // Puts the changes in order: those at one lambda are one breakpoint.
+  void find_breakpoints(InterfaceAreas areas);
 
   CutSolver& solver_;
   Observer& observer_;
   FillPath path_;
-  std::vector<ZoneProof> proofs_;  // by breakpoint
+  std::vector<Change> changes_;
 };
 
 WideCut PathSearch::solve(const Piece& piece, const Lambda& lambda) {
@@ -45,55 +52,86 @@ WideCut PathSearch::solve(const Piece& piece, const Lambda& lambda) {
   return cut;
 }
 
-void PathSearch::add_breakpoint(const Piece& piece, const Lambda& lambda,
-                                const InterfaceAreas& before, WideCut cut) {
-  ZoneProof proof{{}, piece.edge, std::move(cut.edge_flow)};
+void PathSearch::add_change(const Piece& piece, const Lambda& lambda, const InterfaceAreas& before,
+                            const InterfaceAreas& after, WideCut cut) {
+  Change change{lambda, before, after, {}, piece.edge, std::move(cut.edge_flow)};
   for (std::size_t i = 0; i < piece.node.size(); ++i) {
-    if (cut.largest_source_side[i] != 0) proof.node.push_back(piece.node[i]);
+    if (cut.largest_source_side[i] != 0) change.node.push_back(piece.node[i]);
   }
-  path_.breakpoints.push_back(lambda);
-  path_.areas.push_back(before);
-  proofs_.push_back(std::move(proof));
+  changes_.push_back(std::move(change));
 }
 
-void PathSearch::divide(const Piece& piece, const InterfaceAreas& before,
-                        const InterfaceAreas& after) {
+void PathSearch::divide_connected(const Piece& piece) {
+  const ParametricProblem& problem = piece.problem;
+  const InterfaceAreas before = areas_of(problem, piece.before);
+  const InterfaceAreas after = areas_of(problem, piece.after);
   if (before == after) return;
   const Lambda lambda = crossing(before, after);
-  WideCut cut = solve(piece, lambda);
-  if (cut.value == cost_at(before, lambda)) {
-    add_breakpoint(piece, lambda, before, std::move(cut));
+  if (problem.node_count() == 1) {
+    // Nothing to solve: at the crossing both sides cost the same.
+    changes_.push_back({lambda, before, after, piece.node, {}, {}});
     return;
   }
-  const CutLabels none(piece.node.size(), 0);
-  const CutLabels all(piece.node.size(), 1);
-  const InterfaceAreas largest = areas_of(piece.problem, cut.largest_source_side);
-  const InterfaceAreas smallest = areas_of(piece.problem, cut.smallest_source_side);
-  divide(contract(piece, cut.smallest_source_side, all), before, largest);
-  const Piece rest = contract(piece, none, cut.largest_source_side);
-  if (!(largest == smallest)) add_breakpoint(piece, lambda, largest, std::move(cut));
-  divide(rest, smallest, after);
+  WideCut cut = solve(piece, lambda);
+  if (cut.value == cost_at(before, lambda)) {
+    add_change(piece, lambda, before, after, std::move(cut));
+    return;
+  }
+  const CutLabels none(problem.node_count(), 0);
+  const CutLabels all(problem.node_count(), 1);
+  const CutLabels& smallest = cut.smallest_source_side;
+  const CutLabels& largest = cut.largest_source_side;
+  divide(contract(piece, smallest, all, piece.before, largest));
+  divide(contract(piece, none, largest, smallest, piece.after));
+  const InterfaceAreas most = areas_of(problem, largest);
+  const InterfaceAreas least = areas_of(problem, smallest);
+  if (!(most == least)) add_change(piece, lambda, most, least, std::move(cut));
+}
+
+void PathSearch::divide(Piece piece) {
+  for (const Piece& part : connected_parts(std::move(piece))) divide_connected(part);
+}
+
+void PathSearch::find_breakpoints(InterfaceAreas areas) {
+  std::stable_sort(changes_.begin(), changes_.end(),
+                   [](const Change& a, const Change& b) { return a.lambda < b.lambda; });
+  path_.areas.push_back(areas);
+  for (const Change& change : changes_) {
+    const bool another = path_.breakpoints.empty() || path_.breakpoints.back() < change.lambda;
+    if (another) {
+      path_.breakpoints.push_back(change.lambda);
+      path_.areas.push_back(path_.areas.back());
+    }
+    InterfaceAreas& next = path_.areas.back();
+    next.supported += change.after.supported - change.before.supported;
+    next.unsupported += change.after.unsupported - change.before.unsupported;
+    // Changes come in the order of lambda, so the last one that a node is in is its own.
+    const auto level = static_cast<std::uint32_t>(path_.breakpoints.size());
+    for (const std::uint32_t i : change.node) path_.level[i] = level;
+  }
 }
 
 FillPath PathSearch::run(const ParametricProblem& problem, const Lambda& first,
                          const Lambda& last) {
   path_.first = first;
   path_.last = last;
-  Piece whole{problem, std::vector<std::uint32_t>(problem.node_count()),
-              std::vector<std::uint32_t>(problem.edges.size())};
+  Piece whole{problem,
+              std::vector<std::uint32_t>(problem.node_count()),
+              std::vector<std::uint32_t>(problem.edges.size()),
+              {},
+              {}};
   std::iota(whole.node.begin(), whole.node.end(), 0U);
   std::iota(whole.edge.begin(), whole.edge.end(), 0U);
   const WideCut begin = solve(whole, first);
   const WideCut end = solve(whole, last);
-  divide(contract(whole, end.smallest_source_side, begin.largest_source_side),
-         areas_of(problem, begin.smallest_source_side), areas_of(problem, end.largest_source_side));
-  path_.areas.push_back(areas_of(problem, end.largest_source_side));
-
-  const auto count = static_cast<std::uint32_t>(path_.areas.size());
+  divide(contract(whole, end.smallest_source_side, begin.largest_source_side,
+                  begin.smallest_source_side, end.largest_source_side));
   path_.level.assign(problem.node_count(), 0);
-  for (std::uint32_t k = 0; k + 1 < count; ++k) {
-    for (const std::uint32_t i : proofs_[k].node) path_.level[i] = k + 1;
+  find_breakpoints(areas_of(problem, begin.smallest_source_side));
+  if (!(path_.areas.back() == areas_of(problem, end.largest_source_side))) {
+    throw std::logic_error("fill path: what changes is not what lies between the ends");
   }
+  const auto count = static_cast<std::uint32_t>(path_.areas.size());
   for (std::size_t i = 0; i < problem.node_count(); ++i) {
     if (end.largest_source_side[i] != 0) path_.level[i] = count;
   }
@@ -108,10 +146,12 @@ FillPath PathSearch::run(const ParametricProblem& problem, const Lambda& first,
     if (level == 0) path_.zone_flow[e] = begin.edge_flow[e];
     if (level == count) path_.zone_flow[e] = end.edge_flow[e];
   }
-  for (std::uint32_t k = 0; k + 1 < count; ++k) {
-    for (std::size_t n = 0; n < proofs_[k].edge.size(); ++n) {
-      const std::uint32_t e = proofs_[k].edge[n];
-      if (level_of(e) == k + 1) path_.zone_flow[e] = proofs_[k].flow[n];
+  std::uint32_t level = 0;
+  for (const Change& change : changes_) {
+    if (level == 0 || path_.breakpoints[level - 1] < change.lambda) ++level;
+    for (std::size_t n = 0; n < change.edge.size(); ++n) {
+      const std::uint32_t e = change.edge[n];
+      if (level_of(e) == level) path_.zone_flow[e] = change.flow[n];
     }
   }
   return std::move(path_);

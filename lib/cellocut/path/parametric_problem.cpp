@@ -78,45 +78,4 @@ WideProblem at_lambda(const ParametricProblem& problem, const Lambda& lambda) {
   return result;
 }
 
-Piece contract(const Piece& piece, const CutLabels& lower, const CutLabels& upper) {
-  constexpr std::uint32_t kInside = 0xFFFFFFFEU;
-  constexpr std::uint32_t kOut = 0xFFFFFFFFU;
-  const ParametricProblem& whole = piece.problem;
-  Piece result;
-  ParametricProblem& part = result.problem;
-  part.constant = whole.constant;
-  std::vector<std::uint32_t> place(whole.node_count());
-  for (std::uint32_t i = 0; i < whole.node_count(); ++i) {
-    if (lower[i] != 0 && upper[i] == 0) throw std::logic_error("fill path: cuts are not nested");
-    if (lower[i] != 0) {
-      place[i] = kInside;
-      part.constant += whole.to_sink[i];
-    } else if (upper[i] == 0) {
-      place[i] = kOut;
-      part.constant += whole.to_source[i];
-    } else {
-      place[i] = static_cast<std::uint32_t>(result.node.size());
-      result.node.push_back(piece.node[i]);
-      part.to_source.push_back(whole.to_source[i]);
-      part.to_sink.push_back(whole.to_sink[i]);
-    }
-  }
-  for (std::size_t e = 0; e < whole.edges.size(); ++e) {
-    const ParametricProblem::Edge& edge = whole.edges[e];
-    const std::uint32_t a = place[edge.from];
-    const std::uint32_t b = place[edge.to];
-    if (a < kInside && b < kInside) {
-      part.edges.push_back({a, b, edge.areas});
-      result.edge.push_back(piece.edge[e]);
-    } else if (a < kInside || b < kInside) {
-      const std::uint32_t node = a < kInside ? a : b;
-      const std::uint32_t other = a < kInside ? b : a;
-      (other == kInside ? part.to_source : part.to_sink)[node] += edge.areas;
-    } else if (a != b) {
-      part.constant += edge.areas;
-    }
-  }
-  return result;
-}
-
 }  // namespace cellocut

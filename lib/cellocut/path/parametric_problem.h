@@ -65,14 +65,4 @@ InterfaceAreas areas_of(const ParametricProblem& problem, const CutLabels& sourc
 // The problem at one lambda; its nodes and edges are those of `problem`. O(nodes + edges).
 WideProblem at_lambda(const ParametricProblem& problem, const Lambda& lambda);
 
-// A part of a problem: what lies between two nested labellings, with the rest in the terminals.
-struct Piece {
-  ParametricProblem problem;
-  std::vector<std::uint32_t> node;  // of the whole problem, per node of the piece
-  std::vector<std::uint32_t> edge;  // likewise
-};
-// The nodes of `upper` that are not in `lower`. Areas of a labelling of the new piece are those of
-// the same labelling of the whole. Precondition: lower is a subset of upper. O(nodes + edges).
-Piece contract(const Piece& piece, const CutLabels& lower, const CutLabels& upper);
-
 }  // namespace cellocut

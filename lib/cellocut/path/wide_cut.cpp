@@ -23,6 +23,16 @@ Terminal terminal_at(Wide to_source, Wide to_sink, Wide out) {
   return {to_source - from_source, to_sink - (from_source - out), from_source};
 }
 
+// A maximum flow and both canonical cuts, as checked by CutSolver::solve.
+CutResult maximum_flow(CutSolver& solver, const CutProblem& problem, Observer& observer) {
+  CutResult cut = solver.solve(problem, SolveOptions{.observer = &observer});
+  if (cut.status != CutStatus::optimal || !cut.canonical) {
+    throw CertificateError("solver '" + solver.info().name + "' returned no maximum flow: " +
+                           (cut.message.empty() ? "it is not exact" : cut.message));
+  }
+  return cut;
+}
+
 class WideSearch {
  public:
   WideSearch(const WideProblem& problem, CutSolver& solver, Observer& observer)
@@ -103,12 +113,8 @@ Wide WideSearch::add_digit(Wide bound, int shift) {
     scaled.edges.push_back({edge.from, edge.to, part(edge.capacity - result_.edge_flow[e]),
                             part(edge.capacity + result_.edge_flow[e])});
   }
-  const CutResult cut = solver_.solve(scaled, SolveOptions{.observer = &observer_});
+  const CutResult cut = maximum_flow(solver_, scaled, observer_);
   ++result_.digits;
-  if (cut.status != CutStatus::optimal || !cut.canonical) {
-    throw CertificateError("solver '" + solver_.info().name + "' returned no maximum flow: " +
-                           (cut.message.empty() ? "it is not exact" : cut.message));
-  }
   // What the minimum cut has in the bits that were left out.
   const CutLabels& side = cut.smallest_source_side;
   const Wide unit = Wide{1} << shift;
@@ -206,9 +212,45 @@ WideCut WideSearch::run() {
   return std::move(result_);
 }
 
+// The sum of all capacities, both directions of every edge.
+Wide sum_of(const WideProblem& problem) {
+  Wide sum = 0;
+  for (const Wide capacity : problem.to_source) sum += capacity;
+  for (const Wide capacity : problem.to_sink) sum += capacity;
+  for (const WideProblem::Edge& edge : problem.edges) sum += 2 * edge.capacity;
+  return sum;
+}
+
+// Where the solver takes the problem as it is, CutSolver::solve checks the flow and finds both
+// cuts.
+WideCut solve_narrow(const WideProblem& problem, CutSolver& solver, Observer& observer) {
+  const auto narrow = [](Wide capacity) { return static_cast<std::int64_t>(capacity); };
+  CutProblem same;
+  same.to_source.reserve(problem.node_count());
+  same.to_sink.reserve(problem.node_count());
+  for (std::size_t i = 0; i < problem.node_count(); ++i) {
+    same.to_source.push_back(narrow(problem.to_source[i]));
+    same.to_sink.push_back(narrow(problem.to_sink[i]));
+  }
+  same.edges.reserve(problem.edges.size());
+  for (const WideProblem::Edge& edge : problem.edges) {
+    same.edges.push_back({edge.from, edge.to, narrow(edge.capacity), narrow(edge.capacity)});
+  }
+  CutResult cut = maximum_flow(solver, same, observer);
+  return {problem.constant + cut.value,
+          {cut.edge_flow.begin(), cut.edge_flow.end()},
+          std::move(cut.smallest_source_side),
+          std::move(cut.largest_source_side),
+          1};
+}
+
 }  // namespace
 
 WideCut solve_wide(const WideProblem& problem, CutSolver& solver, Observer& observer) {
+  observer.check();
+  if (sum_of(problem) < Wide{solver.info().capacity_limit}) {
+    return solve_narrow(problem, solver, observer);
+  }
   return WideSearch(problem, solver, observer).run();
 }
 

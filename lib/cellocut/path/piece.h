@@ -1,0 +1,33 @@
+// Parts of a parametric problem: what changes sides within a range of lambda.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "cellocut/cut/cut_solver.h"
+#include "cellocut/path/parametric_problem.h"
+
+namespace cellocut {
+
+// The nodes between two nested labellings, with the rest of the problem in the terminals, and two
+// labellings of them.
+struct Piece {
+  ParametricProblem problem;
+  std::vector<std::uint32_t> node;  // of the whole problem, per node of the piece
+  std::vector<std::uint32_t> edge;  // likewise
+  CutLabels before;                 // a minimum next to the beginning of the range
+  CutLabels after;                  // and next to its end
+};
+
+// The nodes of `upper` that are not in `lower`. Areas of a labelling of the new piece are those of
+// the same labelling of the old one. `before` and `after` are labellings of the old one.
+// Preconditions: `lower` is a subset of both, both are subsets of `upper`. O(nodes + edges).
+// Errors: std::logic_error where lower is no subset of upper.
+Piece contract(const Piece& piece, const CutLabels& lower, const CutLabels& upper,
+               const CutLabels& before, const CutLabels& after);
+
+// The parts that no edge joins, each with none of the constant: what is minimal in the piece is so
+// in each of them. In the order of their first nodes. O(nodes + edges).
+std::vector<Piece> connected_parts(Piece piece);
+
+}  // namespace cellocut

@@ -4,6 +4,8 @@
 
 #include <numeric>
 
+#include "cellocut/base/disjoint_sets.h"
+
 namespace cellocut {
 
 ParametricProblem make_parametric_problem(const CellGraph& graph, const FacetList& facets,
@@ -81,31 +83,9 @@ CellPath find_cell_path(const CellGraph& graph, const FacetList& facets, const F
 
 namespace {
 
-// Joined cells have one root.
-class CellSets {
- public:
-  explicit CellSets(std::size_t cells) : parent_(cells) {
-    std::iota(parent_.begin(), parent_.end(), 0U);
-  }
-  // Whether they were apart.
-  bool join(std::uint32_t c, std::uint32_t d) {
-    const std::uint32_t a = root(c);
-    const std::uint32_t b = root(d);
-    parent_[std::max(a, b)] = std::min(a, b);
-    return a != b;
-  }
-
- private:
-  std::uint32_t root(std::uint32_t c) {
-    while (parent_[c] != c) c = parent_[c] = parent_[parent_[c]];
-    return c;
-  }
-  std::vector<std::uint32_t> parent_;
-};
-
 PathSolid solid_of(const TetComplex& complex, const std::vector<bool>& interior) {
   PathSolid solid;
-  CellSets sets(interior.size());
+  DisjointSets sets(interior.size());
   for (std::uint32_t c = 0; c < interior.size(); ++c) {
     if (!interior[c]) continue;
     solid.volume += cell_volume(complex, c);
@@ -138,7 +118,7 @@ std::vector<PathSolid> path_solids(const TetComplex& complex, const CellPath& pa
   std::vector<std::size_t> next(row.begin(), row.end() - 1);
   for (std::uint32_t c = 0; c < cells; ++c) order[next[path.level[c]]++] = c;
 
-  CellSets sets(cells);
+  DisjointSets sets(cells);
   std::vector<PathSolid> solids(path.count());
   PathSolid solid;
   for (std::size_t k = path.count(); k-- > 0;) {

@@ -8,10 +8,11 @@
 // are fractions, capacities are multiplied out.
 //
 // Where minimum cuts are nested (parametric_problem.h) each solve concerns only the nodes in which
-// the ends of its range differ, and where minima tie, the two canonical ones at a breakpoint are
-// those of its sides: the largest minimum there is the largest on the interval before it, the
-// smallest the smallest on the one after it. Where they are not (support measured on facets) each
-// solve is one of the whole problem, and it takes one more for each labelling.
+// the ends of its range differ, in each part that edges join on its own (piece.h), and where minima
+// tie, the two canonical ones at a breakpoint are those of its sides: the largest minimum there is
+// the largest on the interval before it, the smallest the smallest on the one after it. Where they
+// are not (support measured on facets) each solve is one of the whole problem, and it takes one
+// more for each labelling.
 #pragma once
 
 #include <cstdint>

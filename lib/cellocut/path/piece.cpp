@@ -1,8 +1,8 @@
 #include "cellocut/path/piece.h"
 
-#include <algorithm>
-#include <numeric>
 #include <stdexcept>
+
+#include "cellocut/base/disjoint_sets.h"
 
 namespace cellocut {
 
@@ -13,16 +13,13 @@ Piece contract(const Piece& piece, const CutLabels& lower, const CutLabels& uppe
   const ParametricProblem& whole = piece.problem;
   Piece result;
   ParametricProblem& part = result.problem;
-  part.constant = whole.constant;
   std::vector<std::uint32_t> place(whole.node_count());
   for (std::uint32_t i = 0; i < whole.node_count(); ++i) {
     if (lower[i] != 0 && upper[i] == 0) throw std::logic_error("fill path: cuts are not nested");
     if (lower[i] != 0) {
       place[i] = kInside;
-      part.constant += whole.to_sink[i];
     } else if (upper[i] == 0) {
       place[i] = kOut;
-      part.constant += whole.to_source[i];
     } else {
       place[i] = static_cast<std::uint32_t>(result.node.size());
       result.node.push_back(piece.node[i]);
@@ -43,8 +40,6 @@ Piece contract(const Piece& piece, const CutLabels& lower, const CutLabels& uppe
       const std::uint32_t node = a < kInside ? a : b;
       const std::uint32_t other = a < kInside ? b : a;
       (other == kInside ? part.to_source : part.to_sink)[node] += edge.areas;
-    } else if (a != b) {
-      part.constant += edge.areas;
     }
   }
   return result;
@@ -59,21 +54,12 @@ struct Parts {
 };
 
 Parts number_parts(const ParametricProblem& problem) {
-  std::vector<std::uint32_t> root(problem.node_count());
-  std::iota(root.begin(), root.end(), 0U);
-  const auto find = [&root](std::uint32_t i) {
-    while (root[i] != i) i = root[i] = root[root[i]];
-    return i;
-  };
-  for (const ParametricProblem::Edge& edge : problem.edges) {
-    const std::uint32_t a = find(edge.from);
-    const std::uint32_t b = find(edge.to);
-    root[std::max(a, b)] = std::min(a, b);
-  }
-  Parts parts{std::vector<std::uint32_t>(root.size()), 0};
-  for (std::uint32_t i = 0; i < root.size(); ++i) {
-    // Roots are the first of their part.
-    parts.of_node[i] = root[i] == i ? parts.count++ : parts.of_node[find(i)];
+  DisjointSets sets(problem.node_count());
+  for (const ParametricProblem::Edge& edge : problem.edges) sets.join(edge.from, edge.to);
+  Parts parts{std::vector<std::uint32_t>(problem.node_count()), 0};
+  for (std::uint32_t i = 0; i < parts.of_node.size(); ++i) {
+    const std::uint32_t first = sets.root(i);
+    parts.of_node[i] = first == i ? parts.count++ : parts.of_node[first];
   }
   return parts;
 }
@@ -86,7 +72,6 @@ std::vector<Piece> connected_parts(Piece piece) {
   std::vector<Piece> result(parts.count);
   if (parts.count == 1) {
     result[0] = std::move(piece);
-    result[0].problem.constant = {};
     return result;
   }
   std::vector<std::uint32_t> place(problem.node_count());

@@ -19,15 +19,16 @@ struct Piece {
   CutLabels after;                  // and next to its end
 };
 
-// The nodes of `upper` that are not in `lower`. Areas of a labelling of the new piece are those of
-// the same labelling of the old one. `before` and `after` are labellings of the old one.
+// The nodes of `upper` that are not in `lower`. Areas of two labellings of the new piece differ as
+// those of the old one do; what all have in common is left out. `before` and `after` are labellings
+// of the old one.
 // Preconditions: `lower` is a subset of both, both are subsets of `upper`. O(nodes + edges).
 // Errors: std::logic_error where lower is no subset of upper.
 Piece contract(const Piece& piece, const CutLabels& lower, const CutLabels& upper,
                const CutLabels& before, const CutLabels& after);
 
-// The parts that no edge joins, each with none of the constant: what is minimal in the piece is so
-// in each of them. In the order of their first nodes. O(nodes + edges).
+// The parts that no edge joins: what is minimal in the piece is so in each of them. In the order of
+// their first nodes. O(nodes + edges).
 std::vector<Piece> connected_parts(Piece piece);
 
 }  // namespace cellocut

@@ -41,7 +41,7 @@ struct WideCut {
   int digits = 0;  // solves that it took
 };
 
-// Exact for every solver that is; the flow is checked here, whatever the solver says of it. Costs a
+// Exact for every solver that is; the flow is checked, whatever the solver says of it. Costs a
 // solve for each digit, and O(nodes + edges). Preconditions: capacities are not negative and sum,
 // constant included, to less than 2^124. Errors: those of CutSolver::solve; CertificateError where
 // the solver's flow is no maximum flow.

@@ -251,7 +251,8 @@ Json parameters_json(const CompareArguments& a, const ThreadLimit& limit) {
   const RemeshOptions& options = a.pipeline.options;
   Json json{{"resolution", options.resolution},
             {"epsilon", "max(1/512, 1/resolution)"},
-            {"decimate", options.decimate},
+            {"decimate", options.decimation.removed_share},
+            {"decimation", a.pipeline.decimation},
             {"lambda_fill", to_string(options.lambda_fill)},
             {"support", a.pipeline.support},
             {"exterior", a.pipeline.exterior},

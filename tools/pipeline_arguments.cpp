@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "cellocut/base/errors.h"
+#include "cellocut/memory_estimate.h"
 
 namespace cellocut::tools {
 
@@ -63,7 +64,12 @@ void PipelineArguments::add_to(CLI::App& app, LambdaOption lambda_option) {
                      "1/resolution))");
   app.add_option("--epsilon-abs", options.epsilon_absolute, "Thickening offset in input units")
       ->excludes(epsilon);
-  app.add_option("--decimate", options.decimate, "Share of the proxy's faces to remove, 0 to 0.99")
+  app.add_option("--decimate", options.decimation.removed_share,
+                 "Share of the proxy's faces to remove, 0 to 0.99")
+      ->capture_default_str();
+  app.add_option("--decimation", decimation,
+                 "How: vertices put into clusters, or quadric edge collapses, which take longer")
+      ->check(CLI::IsMember({"clusters", "quadric"}))
       ->capture_default_str();
   std::string weight = "Weight of an unsupported interface: a number or p/q, terms up to 2^20";
   if (lambda_option == LambdaOption::number_or_auto) {
@@ -75,6 +81,10 @@ void PipelineArguments::add_to(CLI::App& app, LambdaOption lambda_option) {
                  "Ablation: phi is the flood-signed distance, no offset");
     app.add_flag("--no-unary", no_unary, "Ablation: no cell is anchored interior");
   }
+  app.add_option("--memory", memory,
+                 "Refuse a run that by estimate takes more, as 6GB, 800MB or bytes (default: what "
+                 "the machine has; 0: no limit)")
+      ->transform(CLI::AsSizeValue(true));
   app.add_option("--support", support,
                  "What of a facet between cells has weight 1: all of it where the initial labels "
                  "differ (labels), or the part of its area that lies in the slab or within half a "
@@ -107,6 +117,9 @@ void PipelineArguments::complete() {
   }
   options.guidance.inside = read_points("--inside", inside);
   options.guidance.outside = read_points("--outside", outside);
+  options.memory_limit = memory ? static_cast<std::int64_t>(*memory) : available_memory();
+  options.decimation.method =
+      decimation == "clusters" ? DecimationMethod::clusters : DecimationMethod::quadric;
   options.support = support == "labels" ? SupportRule::labels : SupportRule::facets;
   options.exterior = exterior == "unbounded" ? ExteriorMode::unbounded : ExteriorMode::hull_cells;
   options.thickening = !no_thickening;

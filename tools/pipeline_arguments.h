@@ -1,6 +1,8 @@
 // The options of the pipeline up to the cut, for every subcommand that runs it.
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,6 +24,8 @@ enum class LambdaOption {
 struct PipelineArguments {
   RemeshOptions options;
   std::string lambda = "20";
+  std::optional<std::uint64_t> memory;  // bytes
+  std::string decimation = "clusters";
   std::string support = "labels";
   std::string exterior = "unbounded";
   std::vector<std::string> inside;  // points, or files of them

@@ -88,7 +88,9 @@ Json parameters_json(const RemeshResult& result, const RemeshOptions& options) {
           {"epsilon_below_step", result.derived.epsilon_below_step},
           {"grid_step", result.frame.spacing},
           {"unit", result.frame.unit},
-          {"decimate", options.decimate},
+          {"decimate", options.decimation.removed_share},
+          {"decimation",
+           options.decimation.method == DecimationMethod::clusters ? "clusters" : "quadric"},
           {"lambda_fill", to_string(result.derived.lambda_fill)},
           {"support", options.support == SupportRule::labels ? "labels" : "facets"},
           {"exterior", options.exterior == ExteriorMode::unbounded ? "unbounded" : "hull-cells"},
@@ -226,6 +228,7 @@ Json remesh_json(const RemeshResult& result, const RemeshOptions& options,
                      {"skipped_polygons", input.skipped_polygons}};
   report["parameters"] = parameters_json(result, options);
   report["stages"] = stages_json(facts);
+  report["memory_estimate_bytes"] = result.memory_estimate;
   report["peak_memory_bytes"] = peak_memory_bytes();
   report["proxy"] = {{"faces_before", result.proxy.faces_before},
                      {"faces", result.proxy.mesh.triangles.size()},

@@ -31,7 +31,8 @@ void RemeshOptions::validate() const {
   require(!epsilon || (*epsilon > 0 && *epsilon <= 1), "--epsilon must be above 0 and at most 1");
   require(!epsilon_absolute || (*epsilon_absolute > 0 && std::isfinite(*epsilon_absolute)),
           "--epsilon-abs must be above 0");
-  require(decimate >= 0 && decimate <= 0.99, "--decimate must be between 0 and 0.99");
+  require(decimation.removed_share >= 0 && decimation.removed_share <= 0.99,
+          "--decimate must be between 0 and 0.99");
   require(area_bits >= 8 && area_bits <= 50, "--area-bits must be between 8 and 50");
   require(surface != SurfaceMode::union_ || (thickening && unary),
           "--no-thickening and --no-unary need --surface sdf or cells");
@@ -47,6 +48,7 @@ void RemeshOptions::validate() const {
   require(max_error >= 0 && max_error <= 1, "--max-error must be between 0 and 1");
   require(surface != SurfaceMode::cells || !simplifies(),
           "--surface cells cannot be simplified: its parts may touch");
+  require(memory_limit >= 0, "--memory must not be negative");
   require(min_component >= 0 && min_component <= 1, "--min-component must be between 0 and 1");
 }
 

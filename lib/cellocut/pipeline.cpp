@@ -10,6 +10,7 @@
 #include "cellocut/energy/facet_support.h"
 #include "cellocut/field/distance_field.h"
 #include "cellocut/field/flood_sign.h"
+#include "cellocut/memory_estimate.h"
 #include "cellocut/path/one_sided.h"
 #include "cellocut/path/path_certificate.h"
 #include "cellocut/surface/components.h"
@@ -243,12 +244,13 @@ RemeshResult pose_cut(const TriangleSoup& input, const RemeshOptions& options,
 
   // Stage 1: discretization.
   result.derived = derive_parameters(input, options);
+  result.memory_estimate = check_memory(input, options);
   result.frame =
       make_frame(bounding_box(input), options.resolution, result.derived.epsilon_steps + kBand + 1);
   result.phi = stage("field", [&] { return compute_phi(input, options, result, observer); });
   TriangleSoup thick = stage("iso-surface", [&] { return extract_iso_surface(result.phi); });
   result.proxy = stage("decimation", [&] {
-    return make_proxy(std::move(thick), result.phi, result.frame, options.decimate, observer);
+    return make_proxy(std::move(thick), result.phi, result.frame, options.decimation, observer);
   });
   if (result.proxy.mesh.empty()) return result;
   result.complex = stage("tetrahedralization",

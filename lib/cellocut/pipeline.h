@@ -43,7 +43,7 @@ struct RemeshOptions {
   std::optional<double> epsilon;
   // The same in input units; at most one of the two may be given.
   std::optional<double> epsilon_absolute;
-  double decimate = 0.95;       // share of the proxy's faces to remove; 0 to 0.99
+  Decimation decimation{};      // of the proxy
   Rational lambda_fill{20, 1};  // weight of an unsupported interface; terms up to 2^20
   // Whether lambda_fill is chosen from the fill path (path/auto_fill.h); by remesh() alone, with an
   // exact solver.
@@ -71,10 +71,12 @@ struct RemeshOptions {
   // Whether supported vertices are pulled to the input; by default with `union_` alone, never with
   // `cells`.
   std::optional<bool> pull;
-  bool fair = false;        // completed patches follow a bending energy; not with `cells`
-  bool thickening = true;   // false: phi is the flood-signed distance, no offset (ablation)
-  bool unary = true;        // false: L* only sets weights, nothing is anchored interior (ablation)
-  bool reduce = false;      // the problem, exactly, before it is solved (SolveOptions::reduce)
+  bool fair = false;       // completed patches follow a bending energy; not with `cells`
+  bool thickening = true;  // false: phi is the flood-signed distance, no offset (ablation)
+  bool unary = true;       // false: L* only sets weights, nothing is anchored interior (ablation)
+  bool reduce = false;     // the problem, exactly, before it is solved (SolveOptions::reduce)
+  // Bytes that the run may take, by estimate (memory_estimate.h); 0: any number.
+  std::int64_t memory_limit = 0;
   bool provenance = false;  // whether result.provenance is made
   // Whether the surface gets the colours of the input's vertices; with provenance or without.
   bool transfer_colour = false;
@@ -108,6 +110,7 @@ DerivedParameters derive_parameters(const TriangleSoup& input, const RemeshOptio
 
 struct RemeshResult {
   DerivedParameters derived;
+  std::int64_t memory_estimate = 0;  // bytes
   Frame frame;
   SparseField phi;  // the thickening field, in grid steps
   Proxy proxy;

@@ -89,7 +89,7 @@ std::int64_t iso_surface(benchmark::State& /*state*/, const Given& g) {
 
 std::int64_t decimation(benchmark::State& state, const Given& g) {
   const Proxy proxy = make_proxy(copy_of(state, g.thick), g.result.phi, g.result.frame,
-                                 g.options.decimate, silent_observer());
+                                 g.options.decimation, silent_observer());
   return proxy.faces_before;
 }
 

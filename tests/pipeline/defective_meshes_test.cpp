@@ -40,7 +40,7 @@ TEST_P(DefectiveMesh, IsSoundInEveryMode) {
         options.exterior = exterior;
         options.cut = cut;
         options.lambda_fill = {static_cast<std::int64_t>(lambda), 1};
-        options.decimate = lambda == 1 ? 0.5 : 0.95;
+        options.decimation.removed_share = lambda == 1 ? 0.5 : 0.95;
         expect_sound(run(GetParam().soup, options));
       }
     }

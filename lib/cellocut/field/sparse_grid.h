@@ -26,12 +26,10 @@ class FieldSampler {
   explicit FieldSampler(const SparseField& field) : accessor_(field.grid().tree) {}
 
   double operator()(const Point3& p) {
-    const Point3 floor{std::floor(p[0]), std::floor(p[1]), std::floor(p[2])};
-    const double x = p[0] - floor[0];
-    const double y = p[1] - floor[1];
-    const double z = p[2] - floor[2];
-    const openvdb::Coord o(static_cast<int>(floor[0]), static_cast<int>(floor[1]),
-                           static_cast<int>(floor[2]));
+    const openvdb::Coord o(floor(p[0]), floor(p[1]), floor(p[2]));
+    const double x = p[0] - o.x();
+    const double y = p[1] - o.y();
+    const double z = p[2] - o.z();
     constexpr int kLast = kLeafEdge - 1;
     const bool one_leaf =
         (o.x() & kLast) != kLast && (o.y() & kLast) != kLast && (o.z() & kLast) != kLast;
@@ -49,6 +47,11 @@ class FieldSampler {
   }
 
  private:
+  // As std::floor, which is a call where the processor's rounding may not be used.
+  static int floor(double x) {
+    const int towards_zero = static_cast<int>(x);
+    return towards_zero - (x < towards_zero ? 1 : 0);
+  }
   template <class Corner>
   static double interpolate(double x, double y, double z, const Corner& corner) {
     const auto edge = [&](int dy, int dz) {

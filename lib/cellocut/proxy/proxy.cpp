@@ -5,7 +5,8 @@
 #include <bit>
 
 #include "cellocut/mesh/unused_points.h"
-#include "cellocut/proxy/decimation.h"
+#include "cellocut/proxy/clustering.h"
+#include "cellocut/proxy/edge_collapses.h"
 #include "cellocut/proxy/refinement.h"
 
 namespace cellocut {
@@ -31,17 +32,26 @@ Point3 break_ties(const Point3& p) {
   return moved;
 }
 
+Refinement decimate(const TriangleSoup& surface, const Decimation& decimation,
+                    const SparseField& phi, Observer& observer) {
+  const auto& [removed_share, method] = decimation;
+  if (removed_share > 0 && method == DecimationMethod::clusters) {
+    return cluster_vertices(surface, removed_share, phi, kProxyTolerance, observer);
+  }
+  return refine_to_surface(surface, collapse_edges(surface, removed_share, kProxyTolerance), phi,
+                           kProxyTolerance, observer);
+}
+
 }  // namespace
 
 Proxy make_proxy(TriangleSoup surface, const SparseField& phi, const Frame& frame,
-                 double removed_share, Observer& observer) {
+                 const Decimation& decimation, Observer& observer) {
   Proxy proxy;
   proxy.faces_before = static_cast<std::int64_t>(surface.triangles.size());
   if (surface.empty()) return proxy;
   tbb::parallel_for(std::size_t{0}, surface.points.size(),
                     [&](std::size_t i) { surface.points[i] = break_ties(surface.points[i]); });
-  const Refinement refined = refine_to_surface(
-      surface, decimate(surface, removed_share, kProxyTolerance), phi, kProxyTolerance, observer);
+  const Refinement refined = decimate(surface, decimation, phi, observer);
   proxy.largest_distance = refined.largest_distance;
   proxy.faces_restored = refined.faces_restored;
   proxy.mesh = drop_unused_points(surface.points, refined.faces);

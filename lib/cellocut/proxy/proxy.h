@@ -18,17 +18,27 @@ inline constexpr double kProxyTolerance = 0.5;
 // rounding.
 inline constexpr double kTieBreak = 0x1p-13;
 
+enum class DecimationMethod {
+  clusters,  // of vertices, in a hierarchy (clustering.h)
+  quadric    // edge collapses (edge_collapses.h), about half as fast: a reference
+};
+
+struct Decimation {
+  double removed_share = 0.95;  // of the faces, 0 to 0.99
+  DecimationMethod method = DecimationMethod::clusters;
+};
+
 struct Proxy {
   // In input units, rounded once to the doubles that files will hold. Need not be manifold.
   TriangleSoup mesh;
   std::int64_t faces_before = 0;
   double removed_share = 0;         // 1 - faces / faces_before, as reached
   double largest_distance = 0;      // measured max of |phi| over the proxy, in grid steps
-  std::int64_t faces_restored = 0;  // of the full surface, where nothing less was close enough
+  std::int64_t faces_restored = 0;  // came back where nothing less was close enough
 };
 
 // Decimates `surface` (phi = 0 in index coordinates, from extract_iso_surface) until
-// `removed_share` of its faces are gone, and splits faces that went further from phi = 0 than
+// the share asked of its faces is gone, and splits faces that went further from phi = 0 than
 // kProxyTolerance: the distance wins over the share, and only where it has to.
 //
 // Every vertex is moved first, by up to kTieBreak and by a rule that depends on its place alone.
@@ -36,8 +46,8 @@ struct Proxy {
 // rounding would decide what Delaunay makes of them: another one for another scale of the input and
 // for another backend. Moved they hardly ever do.
 //
-// Preconditions: removed_share in [0, 0.99]. Errors: Cancelled.
+// Precondition: removed_share in [0, 0.99]. Errors: Cancelled.
 Proxy make_proxy(TriangleSoup surface, const SparseField& phi, const Frame& frame,
-                 double removed_share, Observer& observer);
+                 const Decimation& decimation, Observer& observer);
 
 }  // namespace cellocut

@@ -1,6 +1,5 @@
 #include "cellocut/proxy/refinement.h"
 
-#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -10,83 +9,19 @@
 #include <unordered_map>
 #include <unordered_set>
 
-#include "cellocut/field/sparse_grid.h"
+#include "cellocut/base/raster_points.h"
+#include "cellocut/proxy/departure.h"
 #include "cellocut/proxy/nearest_vertex.h"
 
 namespace cellocut {
 
 namespace {
 
-constexpr double kRaster = 0.5;  // grid steps between samples
+constexpr double kRaster = 0.5;  // grid steps between the points that find faces around
 constexpr int kMostRounds = 4;   // nearly all is done in the first two
-
-// Where |phi| is largest among the samples taken.
-struct Departure {
-  double distance = 0;
-  Point3 at{};
-
-  void add(FieldSampler& phi, const Point3& p) {
-    const double sample = std::fabs(phi(p));
-    if (sample > distance) {
-      distance = sample;
-      at = p;
-    }
-  }
-};
-
-int raster_steps(double length) {
-  return std::max(1, static_cast<int>(std::ceil(length / kRaster)));
-}
-
-// Visits points on the segment, its ends included.
-template <class Visit>
-void for_each_raster_point(const Point3& a, const Point3& b, const Visit& visit) {
-  const Point3 along = b - a;
-  const int steps = raster_steps(norm(along));
-  for (int i = 0; i <= steps; ++i) visit(a + (static_cast<double>(i) / steps) * along);
-}
-
-// Visits points on the triangle: its edges, and rows between the longest of them and the corner
-// opposite. As many as its area asks for, however thin it is.
-template <class Visit>
-void for_each_raster_point(const std::array<Point3, 3>& corner, const Visit& visit) {
-  int base = 0;
-  double longest = -1;
-  for (int k = 0; k < 3; ++k) {
-    const Point3& a = corner[k];
-    const Point3& b = corner[(k + 1) % 3];
-    for_each_raster_point(a, b, visit);
-    if (norm(b - a) > longest) {
-      longest = norm(b - a);
-      base = k;
-    }
-  }
-  const Point3& a = corner[base];
-  const Point3 along = corner[(base + 1) % 3] - a;
-  const Point3 side = corner[(base + 2) % 3] - a;
-  const double height = longest > 0 ? norm(cross(along, side)) / longest : 0;
-  const int rows = raster_steps(height);
-  for (int row = 1; row < rows; ++row) {
-    const double t = static_cast<double>(row) / rows;
-    const Point3 start = a + t * side;
-    for_each_raster_point(start, start + (1 - t) * along, visit);
-  }
-}
 
 std::array<Point3, 3> corners_of(const std::vector<Point3>& points, const Triangle& face) {
   return {points[face[0]], points[face[1]], points[face[2]]};
-}
-
-Departure measure_face(const std::vector<Point3>& points, const Triangle& face, FieldSampler& phi) {
-  Departure worst;
-  for_each_raster_point(corners_of(points, face), [&](const Point3& p) { worst.add(phi, p); });
-  return worst;
-}
-
-Departure measure_edge(const Point3& a, const Point3& b, FieldSampler& phi) {
-  Departure worst;
-  for_each_raster_point(a, b, [&](const Point3& p) { worst.add(phi, p); });
-  return worst;
 }
 
 // Faces and how far each departs.
@@ -101,23 +36,12 @@ struct Measured {
 
   void measure(const std::vector<Point3>& points, const std::vector<Triangle>& more,
                const SparseField& phi) {
-    const std::size_t before = faces.size();
+    const std::vector<Departure> departures = measure_faces(points, more, phi);
     faces.insert(faces.end(), more.begin(), more.end());
-    worst.resize(faces.size());
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(before, faces.size(), 256),
-                      [&](const tbb::blocked_range<std::size_t>& range) {
-                        FieldSampler sampler(phi);
-                        for (std::size_t i = range.begin(); i != range.end(); ++i) {
-                          worst[i] = measure_face(points, faces[i], sampler);
-                        }
-                      });
+    worst.insert(worst.end(), departures.begin(), departures.end());
   }
 
-  [[nodiscard]] double largest() const {
-    double largest = 0;
-    for (const Departure& departure : worst) largest = std::max(largest, departure.distance);
-    return largest;
-  }
+  [[nodiscard]] double largest() const { return largest_distance(worst); }
 };
 
 // The vertices at which edges are split. An edge is named by its corners, the lower first, so that
@@ -227,7 +151,7 @@ class Splits {
 
   const std::vector<Point3>& points_;
   const NearestVertex& nearest_;
-  FieldSampler phi_;
+  const SparseField& phi_;
   double tolerance_;
   EdgeSplits edges_;
   std::map<Triangle, std::uint32_t> inside_;
@@ -242,15 +166,25 @@ std::vector<Triangle> faces_around(const TriangleSoup& surface, const std::vecto
     return (part(p[0], dx) << 42) | (part(p[1], dy) << 21) | part(p[2], dz);
   };
   std::unordered_set<std::uint64_t> cells;
+  std::uint64_t last = ~std::uint64_t{0};  // no cell's
   for (const Triangle& t : gone) {
-    for_each_raster_point(corners_of(surface.points, t), [&](const Point3& p) {
+    for_each_raster_point(corners_of(surface.points, t), kRaster, [&](const Point3& p) {
+      if (key(p, 0, 0, 0) == last) return;
+      last = key(p, 0, 0, 0);
       for (int n = 0; n < 27; ++n) cells.insert(key(p, n / 9 - 1, n / 3 % 3 - 1, n % 3 - 1));
     });
   }
+  constexpr std::size_t kChunks = 64;
+  std::array<std::vector<Triangle>, kChunks> found;
+  tbb::parallel_for(std::size_t{0}, kChunks, [&](std::size_t chunk) {
+    const std::size_t count = surface.triangles.size();
+    for (std::size_t f = chunk * count / kChunks; f < (chunk + 1) * count / kChunks; ++f) {
+      const Triangle& t = surface.triangles[f];
+      if (cells.count(key(surface.points[t[0]], 0, 0, 0)) != 0) found[chunk].push_back(t);
+    }
+  });
   std::vector<Triangle> around;
-  for (const Triangle& t : surface.triangles) {
-    if (cells.count(key(surface.points[t[0]], 0, 0, 0)) != 0) around.push_back(t);
-  }
+  for (const auto& faces : found) around.insert(around.end(), faces.begin(), faces.end());
   return around;
 }
 

@@ -1,4 +1,4 @@
-// Removes most faces of a dense surface.
+// Decimation by quadric edge collapses: the reference for the proxy's default.
 #pragma once
 
 #include <vector>
@@ -15,6 +15,7 @@ namespace cellocut {
 // whole afterwards, so that no border shows. The blocks are those of space: the same faces for any
 // number of threads. O(n log n).
 // Preconditions: points >= 0, one unit or so between neighbours; removed_share in [0, 1).
-std::vector<Triangle> decimate(const TriangleSoup& surface, double removed_share, double error);
+std::vector<Triangle> collapse_edges(const TriangleSoup& surface, double removed_share,
+                                     double error);
 
 }  // namespace cellocut

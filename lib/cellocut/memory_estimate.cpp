@@ -24,10 +24,10 @@ constexpr double kCell = 8;  // edge of the cells that are counted, in grid step
 constexpr double kStep = 4;  // between the points that find them
 
 // Bytes, fitted to runs (docs/performance.md).
-constexpr double kProgram = 60e6;
-constexpr double kPerCell = 50e3;
-constexpr double kPerCellUndecimated = 200e3;  // times the share of the proxy's faces that stays
-constexpr double kPerInputFace = 200;
+constexpr double kProgram = 90e6;
+constexpr double kPerCell = 38e3;
+constexpr double kPerCellUndecimated = 240e3;  // times the share of the proxy's faces that stays
+constexpr double kPerInputFace = 400;
 
 // The cells of `kCell` grid steps that the input meets.
 std::size_t count_cells(const TriangleSoup& input, int resolution) {
@@ -103,7 +103,7 @@ std::int64_t check_memory(const TriangleSoup& input, const RemeshOptions& option
                      gigabytes(options.memory_limit) + " are there to be used (--memory)";
   what += smaller.resolution > 8
               ? "; --resolution " + std::to_string(smaller.resolution) + " would fit"
-              : "; the input alone is too large";
+              : "; no resolution would fit";
   throw LimitError(what);
 }
 

@@ -132,6 +132,15 @@ class Arguments(ProgramCase):
                 with self.subTest(option=option, value=value):
                     self.refuse(option, option, value)
 
+    def test_memory_that_does_not_suffice(self):
+        for command in (("remesh", "holed.obj", "-o", "out.obj"), ("path", "holed.obj", "-o", "out")):
+            with self.subTest(command[0]):
+                self.fail_with(6, r"needs about .* GB of memory at --resolution 4000.*--memory.*--resolution [0-9]+ "
+                               "would fit", *command, "-R", "4000", "--memory", "200MB")
+        self.refuse("--memory", "--memory", "x")
+        self.refuse("--memory", "--memory", "-1")
+        self.succeed("remesh", "holed.obj", "-o", "out.obj", "--quiet", *COARSE, "--memory", "0")
+
     def test_arguments_that_do_not_go_together(self):
         self.refuse("--quiet.*--verbose|--verbose.*--quiet", "--quiet", "--verbose")
         self.refuse("--bogus", "--bogus")

@@ -87,12 +87,17 @@ TriangleSet make_triangle_set(const TriangleSoup& mesh, const Frame& frame) {
     return i < j;
   });
   TriangleSet set;
+  set.source.reserve(order.size());
   for (std::size_t k = 0; k < order.size(); ++k) {
     if (k > 0 && corners[order[k]] == corners[order[k - 1]]) continue;
-    const Corners& c = corners[order[k]];
-    set.triangles.emplace_back(c[0], c[1], c[2]);
     set.source.push_back(order[k]);
   }
+  order = {};
+  set.triangles.resize(set.source.size());
+  tbb::parallel_for(std::size_t{0}, set.source.size(), [&](std::size_t i) {
+    const Corners& c = corners[set.source[i]];
+    set.triangles[i] = DistanceTriangle(c[0], c[1], c[2]);
+  });
   return set;
 }
 

@@ -24,6 +24,7 @@ struct EightPoints {
 // One triangle (possibly degenerate) with what a distance query needs.
 class DistanceTriangle {
  public:
+  DistanceTriangle() = default;  // the origin
   DistanceTriangle(const Point3& a, const Point3& b, const Point3& c);
 
   // Squared distance from p. Exact up to rounding for degenerate triangles too: where the triangle
@@ -56,12 +57,12 @@ class DistanceTriangle {
     return squared_norm(d - t * edge_[k]);
   }
 
-  Point3 corner_[3];
-  Point3 edge_[3];    // corner k to corner k + 1
-  Point3 inward_[3];  // in the plane, normal to edge k, towards the interior
-  Point3 unit_normal_;
-  double inverse_squared_length_[3];  // 0 for an edge of length 0
-  Point3 centre_;
+  Point3 corner_[3]{};
+  Point3 edge_[3]{};    // corner k to corner k + 1
+  Point3 inward_[3]{};  // in the plane, normal to edge k, towards the interior
+  Point3 unit_normal_{};
+  double inverse_squared_length_[3]{};  // 0 for an edge of length 0
+  Point3 centre_{};
   double radius_ = 0;
   bool has_interior_ = false;
 };

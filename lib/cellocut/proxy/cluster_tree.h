@@ -23,10 +23,9 @@ struct ClusterTree {
 
   std::vector<std::uint32_t> parent;          // kNone: a root
   std::vector<std::uint32_t> representative;  // the leaf that stands for it
-  // What it costs to let the representative stand for all: its mean squared distance from the
-  // planes of the leaves, by area, or the largest of a cluster within, if that is more. (Area times
-  // the squared distance instead puts too few vertices on rims, which are long and narrow: patches
-  // that close holes then start from ragged rims.)
+  // What it costs to let the representative stand for all: its squared distance from the planes of
+  // the leaves, and a little of that from the last one merged, times the area; or the largest of a
+  // cluster within, if that is more.
   std::vector<float> cost;
   std::size_t leaves = 0;
 

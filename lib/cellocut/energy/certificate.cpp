@@ -19,9 +19,12 @@
 // obey capacities.
 #include "cellocut/energy/certificate.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <utility>
 
@@ -448,34 +451,42 @@ Finding Checker::check_canonical(bool from_interior, const CellLabels& labels) c
 
 CertificateReport Checker::run() {
   CertificateReport report;
-  const auto add = [&](const char* name, Finding finding) {
-    report.checks.push_back({name, finding.passed, std::move(finding.detail)});
-    return finding.passed;
+  struct Check {
+    const char* name;
+    const char* obstacle;  // nullptr: none
+    std::function<Finding()> run;
   };
-  const auto unless = [](const char* obstacle, bool sound, auto&& check) {
-    return sound ? check() : failed(std::string("not checked: ") + obstacle);
+  // All of them at once: they only read, but for one that is alone. Whether all passed.
+  const auto add = [&](const std::vector<Check>& checks) {
+    std::vector<Finding> found(checks.size());
+    tbb::parallel_for(std::size_t{0}, checks.size(), [&](std::size_t n) {
+      const Check& check = checks[n];
+      found[n] = check.obstacle == nullptr ? check.run()
+                                           : failed(std::string("not checked: ") + check.obstacle);
+    });
+    for (std::size_t n = 0; n < checks.size(); ++n) {
+      report.checks.push_back({checks[n].name, found[n].passed, std::move(found[n].detail)});
+    }
+    return std::all_of(report.checks.end() - static_cast<std::ptrdiff_t>(checks.size()),
+                       report.checks.end(),
+                       [](const CertificateCheck& check) { return check.passed; });
   };
-  const char* const no_sizes = "the sizes are wrong";
-  const char* const no_areas = "the capacities are unknown";
-  const char* const no_flow = "the flow is not feasible";
-
-  const bool sizes = add("sizes", check_sizes());
-  const bool capacities =
-      add("capacities", unless(no_sizes, sizes, [&] { return check_capacities(); }));
-  const bool conservation =
-      add("conservation", unless(no_sizes, sizes, [&] { return check_conservation(); }));
-  add("anchors", unless(no_sizes, sizes, [&] { return check_anchors(); }));
+  const bool sizes = add({{"sizes", nullptr, [&] { return check_sizes(); }}});
+  const char* const no_sizes = sizes ? nullptr : "the sizes are wrong";
+  const bool capacities = add({{"capacities", no_sizes, [&] { return check_capacities(); }}});
   const bool priced = sizes && capacities_.size() == facets_.size();
-  add("smallest_energy",
-      unless(no_areas, priced, [&] { return check_energy(claim_.smallest_interior); }));
-  add("largest_energy",
-      unless(no_areas, priced, [&] { return check_energy(claim_.largest_interior); }));
-  add("flow_value", unless(no_sizes, sizes, [&] { return check_flow_value(); }));
-  const bool feasible = capacities && conservation;
-  add("smallest_canonical",
-      unless(no_flow, feasible, [&] { return check_canonical(true, claim_.smallest_interior); }));
-  add("largest_canonical",
-      unless(no_flow, feasible, [&] { return check_canonical(false, claim_.largest_interior); }));
+  const char* const no_areas = priced ? nullptr : "the capacities are unknown";
+  add({{"conservation", no_sizes, [&] { return check_conservation(); }},
+       {"anchors", no_sizes, [&] { return check_anchors(); }},
+       {"smallest_energy", no_areas, [&] { return check_energy(claim_.smallest_interior); }},
+       {"largest_energy", no_areas, [&] { return check_energy(claim_.largest_interior); }},
+       {"flow_value", no_sizes, [&] { return check_flow_value(); }}});
+  const bool feasible = capacities && report.checks[2].passed;
+  const char* const no_flow = feasible ? nullptr : "the flow is not feasible";
+  add({{"smallest_canonical", no_flow,
+        [&] { return check_canonical(true, claim_.smallest_interior); }},
+       {"largest_canonical", no_flow,
+        [&] { return check_canonical(false, claim_.largest_interior); }}});
 
   report.valid = std::all_of(report.checks.begin(), report.checks.end(),
                              [](const CertificateCheck& check) { return check.passed; });

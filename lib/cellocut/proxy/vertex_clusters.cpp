@@ -129,7 +129,9 @@ VertexClusters::VertexClusters(const TriangleSoup& surface, double error, Observ
       faces_(group_faces(surface, blocks_)),
       trees_(blocks_.count()),
       undone_(blocks_.count()),
-      node_(surface.points.size()) {
+      node_(surface.points.size()),
+      left_(blocks_.count()),
+      changed_(blocks_.count(), 1) {
   tbb::parallel_for(std::size_t{0}, trees_.size(), [&](std::size_t b) {
     observer.check();
     trees_[b] = tree_of_block(surface, blocks_, faces_, b, error);
@@ -146,6 +148,7 @@ void VertexClusters::make(double removed_share) {
       undone_[b][i] = bound.makes(b, i, tree.cost[i]) ? 0 : 1;
     }
     find_nodes(b);
+    changed_[b] = 1;
   });
 }
 
@@ -174,26 +177,35 @@ bool VertexClusters::undo(const std::vector<std::uint32_t>& representatives) {
   tbb::parallel_for(std::size_t{0}, trees_.size(), [&](std::size_t b) {
     if (touched[b] != 0) find_nodes(b);
   });
+  for (std::size_t b = 0; b < trees_.size(); ++b) {
+    if (touched[b] == 0) continue;
+    changed_[b] = 1;
+    for (const std::uint32_t face : faces_.across[b]) {
+      changed_[blocks_.of_point[surface_.triangles[face][0]]] = 1;
+    }
+  }
   return std::find(touched.begin(), touched.end(), 1) != touched.end();
 }
 
-std::vector<Triangle> VertexClusters::faces() const {
+std::vector<Triangle> VertexClusters::faces() {
   const auto representative = [this](std::uint32_t point) {
     const std::uint32_t block = blocks_.of_point[point];
     return blocks_.points[block][trees_[block].representative[node_[point]]];
   };
-  std::vector<std::vector<Triangle>> left(blocks_.count());
-  tbb::parallel_for(std::size_t{0}, left.size(), [&](std::size_t b) {
+  tbb::parallel_for(std::size_t{0}, left_.size(), [&](std::size_t b) {
+    if (changed_[b] == 0) return;
+    changed_[b] = 0;
+    left_[b].clear();
     for (const std::uint32_t face : faces_.own[b]) {
       Triangle t = surface_.triangles[face];
       for (std::uint32_t& corner : t) corner = representative(corner);
       if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) continue;
       std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
-      left[b].push_back(t);
+      left_[b].push_back(t);
     }
   });
   std::vector<Triangle> all;
-  for (const std::vector<Triangle>& part : left) all.insert(all.end(), part.begin(), part.end());
+  for (const std::vector<Triangle>& part : left_) all.insert(all.end(), part.begin(), part.end());
   tbb::parallel_sort(all.begin(), all.end());
   all.erase(std::unique(all.begin(), all.end()), all.end());
   return all;

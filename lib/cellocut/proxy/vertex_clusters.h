@@ -38,8 +38,9 @@ class VertexClusters {
 
   // The faces whose corners fall into three clusters, with their representatives, which are
   // vertices of the surface, for corners: the lowest first, in ascending order, each once. The
-  // result need not be manifold. O(n log n).
-  [[nodiscard]] std::vector<Triangle> faces() const;
+  // result need not be manifold. O(n log n) at first; after undo(), O(n) in the blocks concerned
+  // and O(k log k) for k faces.
+  [[nodiscard]] std::vector<Triangle> faces();
 
  private:
   void find_nodes(std::size_t block);
@@ -50,6 +51,8 @@ class VertexClusters {
   std::vector<ClusterTree> trees_;                 // per block
   std::vector<std::vector<std::uint8_t>> undone_;  // per block and node: not made
   std::vector<std::uint32_t> node_;                // per point, of its block's tree
+  std::vector<std::vector<Triangle>> left_;        // per block: what its own faces have become
+  std::vector<std::uint8_t> changed_;              // per block: that is no longer so
 };
 
 }  // namespace cellocut

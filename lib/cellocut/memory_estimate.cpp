@@ -1,14 +1,11 @@
 #include "cellocut/memory_estimate.h"
 
-#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <fstream>
-#include <limits>
 #include <string>
 #include <vector>
 

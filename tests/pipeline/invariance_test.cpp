@@ -85,11 +85,9 @@ void expect_hardly_changed(const TriangleSoup& soup, const RemeshOptions& option
     EXPECT_NEAR(result.surface_report.volume / std::pow(change.scale, 3), volume, 1e-3 * volume);
     const TriangleSoup back =
         test::scaled(test::translated(std::move(result.surface), -1.0 * offset), 1 / change.scale);
-    // One distance that is rounded otherwise may put other vertices into clusters, and other cells
-    // across a crease.
-    const double limit = 1.5 * unit / kResolution;
-    EXPECT_LT(directed_distance(back, expected.surface), limit);
-    EXPECT_LT(directed_distance(expected.surface, back), limit);
+    const double h = unit / kResolution;
+    EXPECT_LT(directed_distance(back, expected.surface), h);
+    EXPECT_LT(directed_distance(expected.surface, back), h);
   }
 }
 

@@ -1,7 +1,12 @@
 // The `cellocut` program: picks the subcommand, runs it, turns exceptions into exit codes.
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <limits>
 #include <vector>
+
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 
 #include "cellocut_version.h"
 #include "tools/commands.h"
@@ -49,6 +54,12 @@ int run_program(int argc, char** argv) {
 }  // namespace cellocut::tools
 
 int main(int argc, char** argv) {
+#ifdef __GLIBC__
+  // Stages free arrays of many megabytes and ask for others at once: kept, their pages need not be
+  // made and cleared anew each time, which takes as long as some stages.
+  mallopt(M_MMAP_THRESHOLD, 1 << 30);
+  mallopt(M_TRIM_THRESHOLD, std::numeric_limits<int>::max());
+#endif
   try {
     return cellocut::tools::run_program(argc, argv);
   } catch (...) {

@@ -51,6 +51,10 @@ struct Box3 {
       high[axis] = std::max(high[axis], p[axis]);
     }
   }
+  void include(const Box3& other) {
+    include(other.low);
+    include(other.high);
+  }
   [[nodiscard]] double longest_edge() const {
     return std::fmax(high[0] - low[0], std::fmax(high[1] - low[1], high[2] - low[2]));
   }

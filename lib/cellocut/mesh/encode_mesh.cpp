@@ -1,4 +1,4 @@
-#include <tbb/parallel_for.h>
+#include <tbb/parallel_pipeline.h>
 
 #include <algorithm>
 #include <array>
@@ -8,6 +8,8 @@
 #include <limits>
 #include <span>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "cellocut/base/byte_order.h"
@@ -49,35 +51,44 @@ void append_triangle(std::string& bytes, const char* prefix, const Triangle& tri
   bytes += '\n';
 }
 
-// Appends `append(bytes, i)` for each i below count, in order; made in parallel.
+// Calls append(bytes, i) for each i below count, in parallel, and gives the bytes to the sink in
+// order, a few megabytes at a time.
 template <class Append>
-void append_all(std::string& bytes, std::size_t count, const Append& append) {
-  constexpr std::size_t kChunk = 1 << 15;
-  std::vector<std::string> chunks((count + kChunk - 1) / kChunk);
-  tbb::parallel_for(std::size_t{0}, chunks.size(), [&](std::size_t c) {
-    for (std::size_t i = c * kChunk; i < std::min(count, (c + 1) * kChunk); ++i) {
-      append(chunks[c], i);
-    }
-  });
-  std::size_t size = bytes.size();
-  for (const std::string& chunk : chunks) size += chunk.size();
-  bytes.reserve(size);
-  for (std::string& chunk : chunks) {
-    bytes += chunk;
-    std::string().swap(chunk);
-  }
+void stream_all(const ByteSink& sink, std::size_t count, const Append& append) {
+  constexpr std::size_t kChunk = 1 << 14;
+  constexpr std::size_t kChunksAtOnce = 128;  // more than the threads there are
+  std::size_t begin = 0;
+  tbb::parallel_pipeline(
+      kChunksAtOnce,
+      tbb::make_filter<void, std::size_t>(tbb::filter_mode::serial_in_order,
+                                          [&](tbb::flow_control& flow) {
+                                            if (begin >= count) flow.stop();
+                                            return std::exchange(begin, begin + kChunk);
+                                          }) &
+          tbb::make_filter<std::size_t, std::string>(tbb::filter_mode::parallel,
+                                                     [&](std::size_t first) {
+                                                       std::string bytes;
+                                                       const std::size_t end =
+                                                           std::min(count, first + kChunk);
+                                                       for (std::size_t i = first; i < end; ++i) {
+                                                         append(bytes, i);
+                                                       }
+                                                       return bytes;
+                                                     }) &
+          tbb::make_filter<std::string, void>(tbb::filter_mode::serial_in_order,
+                                              [&](const std::string& bytes) { sink(bytes); }));
 }
 
-void append_points(std::string& bytes, const char* prefix, const TriangleSoup& mesh) {
-  append_all(bytes, mesh.points.size(), [&](std::string& chunk, std::size_t i) {
-    append_point(chunk, prefix, mesh.points[i]);
+void stream_points(const ByteSink& sink, const char* prefix, const TriangleSoup& mesh) {
+  stream_all(sink, mesh.points.size(), [&](std::string& bytes, std::size_t i) {
+    append_point(bytes, prefix, mesh.points[i]);
   });
 }
 
-void append_triangles(std::string& bytes, const char* prefix, const TriangleSoup& mesh,
+void stream_triangles(const ByteSink& sink, const char* prefix, const TriangleSoup& mesh,
                       std::uint64_t first_index) {
-  append_all(bytes, mesh.triangles.size(), [&](std::string& chunk, std::size_t f) {
-    append_triangle(chunk, prefix, mesh.triangles[f], first_index);
+  stream_all(sink, mesh.triangles.size(), [&](std::string& bytes, std::size_t f) {
+    append_triangle(bytes, prefix, mesh.triangles[f], first_index);
   });
 }
 
@@ -89,23 +100,20 @@ void append_obj_colour(std::string& bytes, const Rgb& colour) {
   }
 }
 
-std::string encode_obj(const TriangleSoup& mesh) {
-  std::string bytes;
-  append_all(bytes, mesh.points.size(), [&](std::string& chunk, std::size_t i) {
-    append_coordinates(chunk, "v ", mesh.points[i]);
-    if (!mesh.colours.empty()) append_obj_colour(chunk, mesh.colours[i]);
-    chunk += '\n';
+void stream_obj(const ByteSink& sink, const TriangleSoup& mesh) {
+  stream_all(sink, mesh.points.size(), [&](std::string& bytes, std::size_t i) {
+    append_coordinates(bytes, "v ", mesh.points[i]);
+    if (!mesh.colours.empty()) append_obj_colour(bytes, mesh.colours[i]);
+    bytes += '\n';
   });
-  append_triangles(bytes, "f ", mesh, 1);
-  return bytes;
+  stream_triangles(sink, "f ", mesh, 1);
 }
 
-std::string encode_off(const TriangleSoup& mesh) {
-  std::string bytes = "OFF\n" + std::to_string(mesh.points.size()) + ' ' +
-                      std::to_string(mesh.triangles.size()) + " 0\n";
-  append_points(bytes, "", mesh);
-  append_triangles(bytes, "3 ", mesh, 0);
-  return bytes;
+void stream_off(const ByteSink& sink, const TriangleSoup& mesh) {
+  sink("OFF\n" + std::to_string(mesh.points.size()) + ' ' + std::to_string(mesh.triangles.size()) +
+       " 0\n");
+  stream_points(sink, "", mesh);
+  stream_triangles(sink, "3 ", mesh, 0);
 }
 
 // A byte as a number: to_chars takes none that may be a character.
@@ -142,13 +150,13 @@ std::string ply_header(const TriangleSoup& mesh, Attributes attributes, const ch
          (large ? "uint" : "int") + " vertex_indices\nend_header\n";
 }
 
-std::string encode_ply_ascii(const TriangleSoup& mesh, Attributes attributes) {
-  std::string bytes = ply_header(mesh, attributes, "ascii");
-  append_all(bytes, mesh.points.size(), [&](std::string& chunk, std::size_t i) {
-    append_coordinates(chunk, "", mesh.points[i]);
-    const auto append_value = [&chunk](auto value) {
-      chunk += ' ';
-      append_number(chunk, value);
+void stream_ply_ascii(const ByteSink& sink, const TriangleSoup& mesh, Attributes attributes) {
+  sink(ply_header(mesh, attributes, "ascii"));
+  stream_all(sink, mesh.points.size(), [&](std::string& bytes, std::size_t i) {
+    append_coordinates(bytes, "", mesh.points[i]);
+    const auto append_value = [&bytes](auto value) {
+      bytes += ' ';
+      append_number(bytes, value);
     };
     if (!mesh.colours.empty()) {
       for (const std::uint8_t component : mesh.colours[i]) append_value(int{component});
@@ -156,17 +164,14 @@ std::string encode_ply_ascii(const TriangleSoup& mesh, Attributes attributes) {
     for (const VertexAttribute& attribute : attributes) {
       std::visit([&](const auto& values) { append_value(widened(values[i])); }, attribute.values);
     }
-    chunk += '\n';
+    bytes += '\n';
   });
-  append_triangles(bytes, "3 ", mesh, 0);
-  return bytes;
+  stream_triangles(sink, "3 ", mesh, 0);
 }
 
-std::string encode_ply(const TriangleSoup& mesh, Attributes attributes) {
-  std::string bytes = ply_header(mesh, attributes, "binary_little_endian");
-  bytes.reserve(bytes.size() + (27 + 8 * attributes.size()) * mesh.points.size() +
-                13 * mesh.triangles.size());
-  for (std::size_t i = 0; i < mesh.points.size(); ++i) {
+void stream_ply(const ByteSink& sink, const TriangleSoup& mesh, Attributes attributes) {
+  sink(ply_header(mesh, attributes, "binary_little_endian"));
+  stream_all(sink, mesh.points.size(), [&](std::string& bytes, std::size_t i) {
     for (const double coordinate : mesh.points[i]) append_little_endian(bytes, coordinate);
     if (!mesh.colours.empty()) {
       for (const std::uint8_t component : mesh.colours[i]) append_little_endian(bytes, component);
@@ -175,12 +180,11 @@ std::string encode_ply(const TriangleSoup& mesh, Attributes attributes) {
       std::visit([&](const auto& values) { append_little_endian(bytes, values[i]); },
                  attribute.values);
     }
-  }
-  for (const Triangle& triangle : mesh.triangles) {
+  });
+  stream_all(sink, mesh.triangles.size(), [&](std::string& bytes, std::size_t f) {
     bytes += '\3';
-    for (const std::uint32_t corner : triangle) append_little_endian(bytes, corner);
-  }
-  return bytes;
+    for (const std::uint32_t corner : mesh.triangles[f]) append_little_endian(bytes, corner);
+  });
 }
 
 // Unit normal, zero for a triangle without area.
@@ -193,14 +197,15 @@ std::array<float, 3> facet_normal(const TriangleSoup& mesh, const Triangle& tria
           static_cast<float>(normal[2] / length)};
 }
 
-std::string encode_stl(const TriangleSoup& mesh) {
+void stream_stl(const ByteSink& sink, const TriangleSoup& mesh) {
   if (mesh.triangles.size() > std::numeric_limits<std::uint32_t>::max()) {
     throw LimitError("a binary STL file holds at most 4294967295 triangles");
   }
-  std::string bytes(80, ' ');
-  bytes.reserve(84 + 50 * mesh.triangles.size());
-  append_little_endian(bytes, static_cast<std::uint32_t>(mesh.triangles.size()));
-  for (const Triangle& triangle : mesh.triangles) {
+  std::string header(80, ' ');
+  append_little_endian(header, static_cast<std::uint32_t>(mesh.triangles.size()));
+  sink(header);
+  stream_all(sink, mesh.triangles.size(), [&](std::string& bytes, std::size_t f) {
+    const Triangle& triangle = mesh.triangles[f];
     for (const float x : facet_normal(mesh, triangle)) append_little_endian(bytes, x);
     for (const std::uint32_t corner : triangle) {
       for (const double x : mesh.points[corner]) {
@@ -208,13 +213,13 @@ std::string encode_stl(const TriangleSoup& mesh) {
       }
     }
     append_little_endian(bytes, std::uint16_t{0});
-  }
-  return bytes;
+  });
 }
 
-std::string encode_stl_ascii(const TriangleSoup& mesh) {
-  std::string bytes = "solid\n";
-  for (const Triangle& triangle : mesh.triangles) {
+void stream_stl_ascii(const ByteSink& sink, const TriangleSoup& mesh) {
+  sink("solid\n");
+  stream_all(sink, mesh.triangles.size(), [&](std::string& bytes, std::size_t f) {
+    const Triangle& triangle = mesh.triangles[f];
     bytes += "facet normal";
     for (const float x : facet_normal(mesh, triangle)) {
       bytes += ' ';
@@ -223,8 +228,8 @@ std::string encode_stl_ascii(const TriangleSoup& mesh) {
     bytes += "\nouter loop\n";
     for (const std::uint32_t corner : triangle) append_point(bytes, "vertex ", mesh.points[corner]);
     bytes += "endloop\nendfacet\n";
-  }
-  return bytes + "endsolid\n";
+  });
+  sink("endsolid\n");
 }
 
 // Volatile, because g++ 12.2 wrongly drops a conversion to float and back where it vectorizes two
@@ -262,24 +267,31 @@ void check_values(const TriangleSoup& mesh, Attributes attributes, MeshFormat fo
 
 }  // namespace
 
-std::string encode_mesh(const TriangleSoup& mesh, MeshFormat format,
-                        std::span<const VertexAttribute> attributes) {
+void stream_mesh(const TriangleSoup& mesh, MeshFormat format,
+                 std::span<const VertexAttribute> attributes, const ByteSink& sink) {
   check_values(mesh, attributes, format);
   switch (format) {
     case MeshFormat::obj:
-      return encode_obj(mesh);
+      return stream_obj(sink, mesh);
     case MeshFormat::off:
-      return encode_off(mesh);
+      return stream_off(sink, mesh);
     case MeshFormat::ply:
-      return encode_ply(mesh, attributes);
+      return stream_ply(sink, mesh, attributes);
     case MeshFormat::ply_ascii:
-      return encode_ply_ascii(mesh, attributes);
+      return stream_ply_ascii(sink, mesh, attributes);
     case MeshFormat::stl:
-      return encode_stl(mesh);
+      return stream_stl(sink, mesh);
     case MeshFormat::stl_ascii:
-      return encode_stl_ascii(mesh);
+      return stream_stl_ascii(sink, mesh);
   }
   throw UsageError("unknown mesh format");
+}
+
+std::string encode_mesh(const TriangleSoup& mesh, MeshFormat format,
+                        std::span<const VertexAttribute> attributes) {
+  std::string bytes;
+  stream_mesh(mesh, format, attributes, [&bytes](std::string_view part) { bytes += part; });
+  return bytes;
 }
 
 TriangleSoup as_read_back(const TriangleSoup& mesh, MeshFormat format) {

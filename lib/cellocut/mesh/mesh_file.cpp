@@ -86,7 +86,7 @@ TriangleSoup read_mesh(const std::string& path, std::optional<MeshFormat> format
 void write_mesh(const TriangleSoup& mesh, const std::string& path, MeshFormat format,
                 std::span<const VertexAttribute> attributes) {
   AtomicFile file(path);
-  file.write(encode_mesh(mesh, format, attributes));
+  stream_mesh(mesh, format, attributes, [&file](std::string_view part) { file.write(part); });
   file.commit();
 }
 

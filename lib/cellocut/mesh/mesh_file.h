@@ -1,6 +1,7 @@
 // Triangle meshes in files. Reading keeps everything (duplicate, degenerate, non-manifold faces).
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -36,17 +37,24 @@ MeshFormat format_of_name(std::string_view name);
 // coordinate that is not finite, an index out of range, no faces.
 TriangleSoup read_mesh(const std::string& path, std::optional<MeshFormat> format = {});
 
-// The bytes of a mesh file. Colours are written to PLY (uchar red green blue) and OBJ (r g b after
-// x y z, 0 to 1), and read back as they are; OFF and STL leave them out. `attributes` become
-// further vertex properties of PLY, uchar, int or double. Errors: InputError where colours or
-// attributes are not one per point, or a name is no name of a property or is taken; UsageError for
-// attributes in a format that is not PLY. OBJ, OFF, ASCII STL and ASCII PLY hold shortest decimals
-// that read back as the same doubles; binary PLY holds doubles; binary STL holds floats (rounded to
-// nearest).
+using ByteSink = std::function<void(std::string_view)>;
+
+// Gives the bytes of a mesh file to the sink, in order and piece by piece, so that the file is
+// never in memory as a whole. One call at a time, not all from one thread. Colours are written to
+// PLY (uchar red green blue) and OBJ (r g b after x y z, 0 to 1), and read back as they are; OFF
+// and STL leave them out. `attributes` become further vertex properties of PLY, uchar, int or
+// double. Errors: InputError where colours or attributes are not one per point, or a name is no
+// name of a property or is taken; UsageError for attributes in a format that is not PLY. OBJ, OFF,
+// ASCII STL and ASCII PLY hold shortest decimals that read back as the same doubles; binary PLY
+// holds doubles; binary STL holds floats (rounded to nearest).
+void stream_mesh(const TriangleSoup& mesh, MeshFormat format,
+                 std::span<const VertexAttribute> attributes, const ByteSink& sink);
+
+// The same as one string.
 std::string encode_mesh(const TriangleSoup& mesh, MeshFormat format,
                         std::span<const VertexAttribute> attributes = {});
 
-// Writes through AtomicFile. `path` "-" is standard output. Errors: as encode_mesh(); OutputError.
+// Writes through AtomicFile. `path` "-" is standard output. Errors: as stream_mesh(); OutputError.
 void write_mesh(const TriangleSoup& mesh, const std::string& path, MeshFormat format,
                 std::span<const VertexAttribute> attributes = {});
 

@@ -1,21 +1,49 @@
 #include "cellocut/mesh/triangle_soup.h"
 
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_reduce.h>
+
 namespace cellocut {
+
+namespace {
+
+// What include(box, i) makes of `first` over all i below count.
+template <class Include>
+Box3 box_in_parallel(std::size_t count, const Box3& first, const Include& include) {
+  return tbb::parallel_reduce(
+      tbb::blocked_range<std::size_t>(0, count, 4096), first,
+      [&](const auto& range, Box3 box) {
+        for (std::size_t i = range.begin(); i < range.end(); ++i) include(box, i);
+        return box;
+      },
+      [](Box3 box, const Box3& other) {
+        box.include(other);
+        return box;
+      });
+}
+
+}  // namespace
 
 Box3 bounding_box(const TriangleSoup& soup) { return bounding_box(soup.points, soup.triangles); }
 
 Box3 bounding_box(const std::vector<Point3>& points, const std::vector<Triangle>& triangles) {
-  Box3 box{points[triangles.front()[0]], points[triangles.front()[0]]};
-  for (const Triangle& triangle : triangles) {
-    for (const std::uint32_t v : triangle) box.include(points[v]);
-  }
-  return box;
+  const Point3& first = points[triangles.front()[0]];
+  return box_in_parallel(triangles.size(), Box3{first, first}, [&](Box3& box, std::size_t f) {
+    for (const std::uint32_t v : triangles[f]) box.include(points[v]);
+  });
+}
+
+Box3 bounding_box(const std::vector<Point3>& points, const std::vector<Triangle>& triangles,
+                  const std::vector<std::uint32_t>& faces) {
+  const Point3& first = points[triangles[faces.front()][0]];
+  return box_in_parallel(faces.size(), Box3{first, first}, [&](Box3& box, std::size_t i) {
+    for (const std::uint32_t v : triangles[faces[i]]) box.include(points[v]);
+  });
 }
 
 Box3 bounding_box(const std::vector<Point3>& points) {
-  Box3 box{points.front(), points.front()};
-  for (const Point3& p : points) box.include(p);
-  return box;
+  return box_in_parallel(points.size(), Box3{points.front(), points.front()},
+                         [&](Box3& box, std::size_t i) { box.include(points[i]); });
 }
 
 }  // namespace cellocut

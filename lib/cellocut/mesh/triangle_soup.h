@@ -29,6 +29,9 @@ struct TriangleSoup {
 // The box of the points that triangles use (stray points do not count). Precondition: not empty.
 Box3 bounding_box(const TriangleSoup& soup);
 Box3 bounding_box(const std::vector<Point3>& points, const std::vector<Triangle>& triangles);
+// Of the given faces.
+Box3 bounding_box(const std::vector<Point3>& points, const std::vector<Triangle>& triangles,
+                  const std::vector<std::uint32_t>& faces);
 // The box of all points. Precondition: not empty.
 Box3 bounding_box(const std::vector<Point3>& points);
 

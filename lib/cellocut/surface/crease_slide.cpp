@@ -1,5 +1,7 @@
 #include "cellocut/surface/crease_slide.h"
 
+#include <tbb/parallel_for.h>
+
 #include <array>
 #include <cmath>
 
@@ -24,22 +26,35 @@ CreaseSlide::CreaseSlide(const TriangleSoup& surface, const std::vector<PullTarg
       offset_(offset),
       distance_(distance),
       facing_(targets.size()) {
-  for (const Triangle& t : surface.triangles) {
-    for (int k = 0; k < 3; ++k) consider(t[k], t[(k + 1) % 3]);
+  // By bits, the edges of each face that lead across a crease. (Summed one after the other: few are
+  // creases, and the sum depends on the order.)
+  std::vector<std::uint8_t> creases(surface.triangles.size());
+  tbb::parallel_for(std::size_t{0}, creases.size(), [&](std::size_t f) {
+    const Triangle& t = surface.triangles[f];
+    for (int k = 0; k < 3; ++k) {
+      if (crosses_crease(t[k], t[(k + 1) % 3])) creases[f] |= 1U << k;
+    }
+  });
+  for (std::size_t f = 0; f < creases.size(); ++f) {
+    if (creases[f] == 0) continue;
+    const Triangle& t = surface.triangles[f];
+    for (int k = 0; k < 3; ++k) {
+      if ((creases[f] >> k & 1) == 0) continue;
+      facing_[t[k]] = facing_[t[k]] + targets[t[(k + 1) % 3]].direction;
+    }
   }
 }
 
 // In a closed oriented surface every edge is seen from both of its ends. (The sum of all that a
 // vertex has across creases, and not one of them: which is chosen among equals would be up to the
 // last bit.)
-void CreaseSlide::consider(std::uint32_t vertex, std::uint32_t other) {
+bool CreaseSlide::crosses_crease(std::uint32_t vertex, std::uint32_t other) const {
   const Point3& a = targets_[vertex].direction;
   const Point3& b = targets_[other].direction;
-  if (squared_norm(a) == 0 || squared_norm(b) == 0) return;
+  if (squared_norm(a) == 0 || squared_norm(b) == 0) return false;
   const double cosine = dot(a, b);
-  if (cosine > kLeastAngle || cosine < -kLeastAngle) return;
-  if (dot(surface_.points[other] - surface_.points[vertex], b - a) >= 0) return;  // convex
-  facing_[vertex] = facing_[vertex] + b;
+  if (cosine > kLeastAngle || cosine < -kLeastAngle) return false;
+  return dot(surface_.points[other] - surface_.points[vertex], b - a) < 0;  // else it is convex
 }
 
 Point3 CreaseSlide::operator()(std::uint32_t vertex, const Point3& to) const {

@@ -40,7 +40,8 @@ class CreaseSlide {
     Point3 side;  // from the nearest point on the input to the place, of length 1
   };
 
-  void consider(std::uint32_t vertex, std::uint32_t other);
+  // Whether the way from a vertex to another one leads across a concave crease.
+  [[nodiscard]] bool crosses_crease(std::uint32_t vertex, std::uint32_t other) const;
   [[nodiscard]] std::optional<Footing> step_down(const Footing& from, const Point3& facing,
                                                  double step) const;
 

@@ -40,15 +40,13 @@ PullReport pull_to_input(TriangleSoup& surface, const std::vector<std::uint8_t>&
     targets[v] = {nearest.point, (1 / nearest.distance) * (from - nearest.point)};
     offset[v] = distance;
   });
+  const CreaseSlide slide(surface, targets, input, expected, distance);
   std::vector<Point3> to(count);
-  for (std::size_t v = 0; v < count; ++v) {
+  std::vector<Point3> beyond(count);
+  tbb::parallel_for(std::size_t{0}, count, [&](std::size_t v) {
     const PullTarget& target = targets[v];
     to[v] = squared_norm(target.direction) == 0 ? surface.points[v]
                                                 : target.nearest + distance * target.direction;
-  }
-  const CreaseSlide slide(surface, targets, input, expected, distance);
-  std::vector<Point3> beyond(count);
-  tbb::parallel_for(std::size_t{0}, count, [&](std::size_t v) {
     beyond[v] = slide(static_cast<std::uint32_t>(v), to[v]);
   });
   observer.check();
@@ -57,18 +55,24 @@ PullReport pull_to_input(TriangleSoup& surface, const std::vector<std::uint8_t>&
   report.bad_faces_at_first = moved.bad_faces_at_first;
   report.rounds = moved.rounds;
 
-  std::vector<double> offsets;
+  const auto shifted = [&](std::size_t v) {
+    return beyond[v] != to[v] && moved.fell_short[v] == 0;
+  };
+  tbb::parallel_for(std::size_t{0}, count, [&](std::size_t v) {
+    const bool as_asked = moved.halvings[v] == 0 && !shifted(v);
+    if (supported[v] != 0 && !as_asked) offset[v] = input(surface.points[v]).distance;
+  });
+  std::size_t kept = 0;  // of `offset`, those of supported vertices
   for (std::size_t v = 0; v < count; ++v) {
     if (supported[v] == 0) continue;
-    ++report.supported;
-    const bool shifted = beyond[v] != to[v] && moved.fell_short[v] == 0;
-    if (shifted) ++report.shifted;
+    if (shifted(v)) ++report.shifted;
     if (moved.halvings[v] == Retreat::kStayed) ++report.went_back;
     if (moved.halvings[v] > 0 && moved.halvings[v] < Retreat::kStayed) ++report.stopped_early;
-    const bool as_asked = moved.halvings[v] == 0 && !shifted;
-    offsets.push_back(as_asked ? offset[v] : input(surface.points[v]).distance);
+    offset[kept++] = offset[v];
   }
-  report.offset = quantiles_of(std::move(offsets));
+  report.supported = static_cast<std::int64_t>(kept);
+  offset.resize(kept);
+  report.offset = quantiles_of(std::move(offset));
   return report;
 }
 

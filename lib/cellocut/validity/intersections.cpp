@@ -85,13 +85,16 @@ std::vector<std::vector<std::uint32_t>> size_classes(const std::vector<std::uint
   const auto middle = sample.begin() + static_cast<std::ptrdiff_t>(sample.size() / 2);
   std::nth_element(sample.begin(), middle, sample.end());
   const double unit = std::fmax(4.0 * static_cast<double>(*middle), 1e-30);
-  std::vector<std::vector<std::uint32_t>> classes;
-  for (const std::uint32_t face : faces) {
-    const double ratio = static_cast<double>(boxes[face].longest_edge()) / unit;
-    const auto index =
-        ratio <= 1 ? std::size_t{0} : static_cast<std::size_t>(std::ilogb(ratio) / 4 + 1);
-    if (classes.size() <= index) classes.resize(index + 1);
-    classes[index].push_back(face);
+  std::vector<std::uint8_t> index(faces.size());
+  tbb::parallel_for(std::size_t{0}, faces.size(), [&](std::size_t i) {
+    const double ratio = static_cast<double>(boxes[faces[i]].longest_edge()) / unit;
+    index[i] = ratio <= 1 ? 0 : static_cast<std::uint8_t>(std::ilogb(ratio) / 4 + 1);
+  });
+  std::vector<std::vector<std::uint32_t>> classes(1);
+  classes[0].reserve(faces.size());
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    if (classes.size() <= index[i]) classes.resize(index[i] + 1U);
+    classes[index[i]].push_back(faces[i]);
   }
   std::erase_if(classes, [](const auto& members) { return members.empty(); });
   return classes;
@@ -104,7 +107,7 @@ class Search {
       : points_(points),
         triangles_(triangles),
         faces_(std::move(faces)),
-        frame_(box_of_faces()),
+        frame_(bounding_box(points, triangles, faces_)),
         max_pairs_(max_pairs),
         observer_(observer) {}
 
@@ -131,14 +134,6 @@ class Search {
   }
 
  private:
-  [[nodiscard]] Box3 box_of_faces() const {
-    Box3 box{points_[triangles_[faces_[0]][0]], points_[triangles_[faces_[0]][0]]};
-    for (const std::uint32_t face : faces_) {
-      for (const std::uint32_t v : triangles_[face]) box.include(points_[v]);
-    }
-    return box;
-  }
-
   [[nodiscard]] std::array<Point3, 3> frame_corners(std::uint32_t face) const {
     const Triangle& t = triangles_[face];
     return {frame_(points_[t[0]]), frame_(points_[t[1]]), frame_(points_[t[2]])};

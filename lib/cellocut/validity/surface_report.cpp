@@ -1,8 +1,11 @@
 #include "cellocut/validity/surface_report.h"
 
+#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_reduce.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <string>
 
@@ -22,20 +25,35 @@ void check_indices(const TriangleSoup& mesh) {
   if (mesh.triangles.size() > UINT32_MAX / 3 || mesh.points.size() > UINT32_MAX) {
     throw LimitError("the surface check is limited to 1431655765 faces");
   }
-  for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
-    for (const std::uint32_t v : mesh.triangles[f]) {
-      if (v < mesh.points.size()) continue;
-      throw InputError("face " + std::to_string(f) + " names point " + std::to_string(v) +
-                       ", but there are only " + std::to_string(mesh.points.size()) + " points");
-    }
-  }
+  const auto names_too_high = [&mesh](std::size_t f) {
+    const Triangle& t = mesh.triangles[f];
+    return std::max({t[0], t[1], t[2]}) >= mesh.points.size();
+  };
+  const std::size_t faces = mesh.triangles.size();
+  const std::size_t bad = tbb::parallel_reduce(
+      tbb::blocked_range<std::size_t>(0, faces), faces,
+      [&](const auto& range, std::size_t first) {
+        for (std::size_t f = range.begin(); f < std::min(first, range.end()); ++f) {
+          if (names_too_high(f)) return f;
+        }
+        return first;
+      },
+      [](std::size_t a, std::size_t b) { return std::min(a, b); });
+  if (bad == faces) return;
+  const Triangle& t = mesh.triangles[bad];
+  const auto named = std::find_if(t.begin(), t.end(),
+                                  [&mesh](std::uint32_t v) { return v >= mesh.points.size(); });
+  throw InputError("face " + std::to_string(bad) + " names point " + std::to_string(*named) +
+                   ", but there are only " + std::to_string(mesh.points.size()) + " points");
 }
 
 void count_points(const TriangleSoup& mesh, SurfaceReport& report) {
   std::vector<std::uint8_t> used(mesh.points.size(), 0);
-  for (const Triangle& triangle : mesh.triangles) {
-    for (const std::uint32_t v : triangle) used[v] = 1;
-  }
+  tbb::parallel_for(std::size_t{0}, mesh.triangles.size(), [&](std::size_t f) {
+    for (const std::uint32_t v : mesh.triangles[f]) {
+      std::atomic_ref(used[v]).store(1, std::memory_order_relaxed);
+    }
+  });
   for (std::size_t v = 0; v < used.size(); ++v) {
     if (used[v] == 0) continue;
     ++report.points;
@@ -64,16 +82,30 @@ std::vector<FaceShape> judge_shapes(const TriangleSoup& mesh) {
 // matter.)
 void sum_components(const TriangleSoup& mesh, const Incidence& incidence,
                     const std::vector<FaceShape>& shapes, SurfaceReport& report) {
-  Box3 box{{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
-  for (std::size_t f = 0; f < shapes.size(); ++f) {
-    if (shapes[f] == FaceShape::nonfinite) continue;
-    for (const std::uint32_t v : mesh.triangles[f]) box.include(mesh.points[v]);
+  std::vector<std::uint32_t> finite;
+  finite.reserve(shapes.size());
+  for (std::uint32_t f = 0; f < shapes.size(); ++f) {
+    if (shapes[f] != FaceShape::nonfinite) finite.push_back(f);
   }
-  const Point3 apex = 0.5 * box.low + 0.5 * box.high;
+  Point3 apex{};
+  if (!finite.empty()) {
+    const Box3 box = bounding_box(mesh.points, mesh.triangles, finite);
+    apex = 0.5 * box.low + 0.5 * box.high;
+  }
+  std::vector<double> volume(shapes.size(), 0);
+  std::vector<double> area(shapes.size(), 0);
+  tbb::parallel_for(std::size_t{0}, finite.size(), [&](std::size_t i) {
+    const std::uint32_t f = finite[i];
+    const Triangle& t = mesh.triangles[f];
+    const Point3& a = mesh.points[t[0]];
+    const Point3& b = mesh.points[t[1]];
+    const Point3& c = mesh.points[t[2]];
+    volume[f] = six_volumes(apex, a, b, c) / 6;
+    area[f] = triangle_area(a, b, c);
+  });
   std::vector<std::uint32_t> index_of(shapes.size());
   for (std::size_t f = 0; f < shapes.size(); ++f) {
-    const Triangle& t = mesh.triangles[f];
-    if (!is_proper(t)) continue;
+    if (!is_proper(mesh.triangles[f])) continue;
     const std::uint32_t root = incidence.component[f];
     if (root == f) {
       index_of[f] = static_cast<std::uint32_t>(report.components.size());
@@ -81,12 +113,8 @@ void sum_components(const TriangleSoup& mesh, const Incidence& incidence,
     }
     SurfaceComponent& component = report.components[index_of[root]];
     ++component.triangles;
-    if (shapes[f] == FaceShape::nonfinite) continue;
-    const Point3& a = mesh.points[t[0]];
-    const Point3& b = mesh.points[t[1]];
-    const Point3& c = mesh.points[t[2]];
-    component.volume += six_volumes(apex, a, b, c) / 6;
-    report.area += triangle_area(a, b, c);
+    component.volume += volume[f];
+    report.area += area[f];
   }
   for (const SurfaceComponent& component : report.components) report.volume += component.volume;
   std::stable_sort(report.components.begin(), report.components.end(),
@@ -160,15 +188,11 @@ SurfaceReport inspect_surface(const TriangleSoup& mesh, const SurfaceCheckOption
   sum_components(mesh, by_index, shapes, report);
 
   const std::vector<std::uint32_t> merged = merge_equal_positions(mesh.points);
-  std::vector<Triangle> triangles = mesh.triangles;
-  bool separate = true;  // no two used points in one place
-  for (Triangle& triangle : triangles) {
-    for (std::uint32_t& v : triangle) {
-      separate = separate && merged[v] == v;
-      v = merged[v];
-    }
-  }
-  if (separate) {
+  std::vector<Triangle> triangles(mesh.triangles.size());
+  tbb::parallel_for(std::size_t{0}, triangles.size(), [&](std::size_t f) {
+    for (int k = 0; k < 3; ++k) triangles[f][k] = merged[mesh.triangles[f][k]];
+  });
+  if (triangles == mesh.triangles) {  // no two used points in one place
     report.by_position = by_index.counts;
   } else {
     const Incidence by_position = count_incidence(triangles, mesh.points.size(), observer);

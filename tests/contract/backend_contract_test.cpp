@@ -206,7 +206,7 @@ TEST_P(BackendContract, RefusesCoordinatesThatAreNotFinite) {
 
 TEST_P(BackendContract, SameArraysForAnyNumberOfThreads) {
   const Points points = random_points(20000, 15);
-  const Points grid = cube_grid(12);
+  const Points grid = cube_grid(23);
   std::vector<std::pair<TetComplex, TetComplex>> results;
   for (const std::size_t threads : {1U, 2U, 8U}) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);

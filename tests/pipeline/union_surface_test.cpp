@@ -173,8 +173,24 @@ TEST_P(UnionField, IsWhatItsDefinitionSays) {
   std::int64_t beyond = 0;
   std::int64_t left_out = 0;
   std::int64_t closed_points = 0;
+  const auto is_closed = [&](int x, int y, int z) {
+    return outside(x, y, z) && steps.at(x, y, z) == kUnreached;
+  };
+  const auto is_open = [&](int x, int y, int z) { return outside(x, y, z) && !is_closed(x, y, z); };
+  // Whether the point is a corner of a cell of the grid that has an open corner: only there does
+  // the value bear on the surface, not the sign alone.
+  const auto beside_open = [&](int x, int y, int z) {
+    for (int n = 0; n < 27; ++n) {
+      const int i = x + n / 9 - 1;
+      const int j = y + n / 3 % 3 - 1;
+      const int k = z + n % 3 - 1;
+      const bool on_grid = std::min({i, j, k}) >= 0 && std::max({i, j, k}) < extent;
+      if (on_grid && is_open(i, j, k)) return true;
+    }
+    return false;
+  };
   in_absorbed.for_each([&](int x, int y, int z) {
-    const bool closed = outside(x, y, z) && steps.at(x, y, z) == kUnreached;
+    const bool closed = is_closed(x, y, z);
     const bool solid = !outside(x, y, z) || closed;
     const float value = field.getValue(openvdb::Coord(x, y, z));
     ASSERT_EQ(value < 0, solid) << x << " " << y << " " << z;
@@ -184,7 +200,9 @@ TEST_P(UnionField, IsWhatItsDefinitionSays) {
     if (in_absorbed.at(x, y, z) == kInterior) region = -region;
     double expected = std::min(static_cast<double>(phi_at(x, y, z)), region);
     if (closed) expected = -expected;
-    ASSERT_NEAR(static_cast<double>(value), expected, 0x1p-14) << x << " " << y << " " << z;
+    if (beside_open(x, y, z)) {
+      ASSERT_NEAR(static_cast<double>(value), expected, 0x1p-14) << x << " " << y << " " << z;
+    }
     const bool in_cell = in_interior.at(x, y, z) == kInterior;
     beyond += solid && !in_cell ? 1 : 0;
     left_out += !solid && in_cell ? 1 : 0;

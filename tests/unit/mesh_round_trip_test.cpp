@@ -115,6 +115,17 @@ TEST(AsReadBack, StlMergesEqualPoints) {
   EXPECT_EQ(binary.points.size(), 3u);
 }
 
+// Large files are made in parts, side by side, and come out in order.
+TEST(EncodeMesh, KeepsTheOrderOfManyFaces) {
+  TriangleSoup mesh;
+  for (std::uint32_t i = 0; i < 50000; ++i) {
+    mesh.points.push_back({static_cast<double>(i), 0.5 * i, 0});
+    mesh.triangles.push_back({i, (i + 7) % 50000, (i + 1) % 50000});
+  }
+  const test::TemporaryFolder folder;
+  for (const auto& [name, format] : kFormats) expect_round_trip(mesh, format, folder);
+}
+
 TEST(EncodeMesh, ShortestDecimals) {
   TriangleSoup mesh;
   mesh.points = {{0.1, 1.0 / 3, 1e300}, {-0.0, 5e-324, 123456}, {1, 2, 3}};

@@ -19,7 +19,9 @@
 // obey capacities.
 #include "cellocut/energy/certificate.h"
 
+#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_reduce.h>
 
 #include <algorithm>
 #include <array>
@@ -58,6 +60,33 @@ struct Finding {
 };
 
 Finding failed(std::string detail) { return {false, std::move(detail)}; }
+
+// The lowest index below `count` for which is_bad(index) holds, or `count`. Where none is bad,
+// is_bad has been called once for each; in parallel.
+template <class IsBad>
+std::size_t first_of(std::size_t count, const IsBad& is_bad) {
+  return tbb::parallel_reduce(
+      tbb::blocked_range<std::size_t>(0, count, 1024), count,
+      [&](const auto& range, std::size_t first) {
+        for (std::size_t i = range.begin(); i < range.end(); ++i) {
+          if (is_bad(i)) return std::min(first, i);
+        }
+        return first;
+      },
+      [](std::size_t a, std::size_t b) { return std::min(a, b); });
+}
+
+// The sum of term(index) over all below `count`; in parallel.
+template <class Term>
+Wide sum_of(std::size_t count, const Term& term) {
+  return tbb::parallel_reduce(
+      tbb::blocked_range<std::size_t>(0, count, 1024), Wide{0},
+      [&](const auto& range, Wide sum) {
+        for (std::size_t i = range.begin(); i < range.end(); ++i) sum += term(i);
+        return sum;
+      },
+      std::plus<>());
+}
 
 // A facet as the checker sees it: the side `corner` of `cell`.
 struct Side {
@@ -225,38 +254,44 @@ std::string Checker::complex_defect() const {
 // cells must agree on who is beyond a facet and on its corners: a one-sided neighbour would let
 // flow vanish.
 std::string Checker::match_facets() {
-  constexpr std::uint32_t kUnmatched = std::numeric_limits<std::uint32_t>::max();
-  facet_of_side_.assign(4 * cell_count(), kUnmatched);
+  // The lower of two cells names the facet between them.
+  const auto names = [this](std::size_t c, int k) {
+    const std::int32_t other = neighbour(c, k);
+    return other == kOutside || static_cast<std::size_t>(other) > c;
+  };
+  facet_of_side_.resize(4 * cell_count());
+  std::uint32_t facets = 0;
   for (std::size_t c = 0; c < cell_count(); ++c) {
     for (int k = 0; k < 4; ++k) {
+      if (names(c, k)) facet_of_side_[4 * c + k] = facets++;
+    }
+  }
+  facets_.resize(facets);
+  // Each side of a cell must be one side, and one alone, of the cell beyond: matched in both
+  // directions, no side is left over or taken twice.
+  const std::size_t unmatched = first_of(cell_count(), [&](std::size_t c) {
+    for (int k = 0; k < 4; ++k) {
       const std::int32_t other = neighbour(c, k);
-      if (other != kOutside && static_cast<std::size_t>(other) < c) {
-        // The lower cell came first and has named this facet, if it knows of it.
-        if (facet_of(c, k) == kUnmatched) {
-          return "cells " + std::to_string(other) + " and " + std::to_string(c) + " do not match";
-        }
-        continue;
+      if (names(c, k)) {
+        facets_[facet_of(c, k)] = {static_cast<std::uint32_t>(c), static_cast<std::uint8_t>(k)};
       }
-      const auto f = static_cast<std::uint32_t>(facets_.size());
-      facets_.push_back({static_cast<std::uint32_t>(c), static_cast<std::uint8_t>(k)});
-      facet_of_side_[4 * c + k] = f;
       if (other == kOutside) continue;
       const auto beyond = static_cast<std::size_t>(other);
       int matches = 0;
+      int match = 0;
       for (int j = 0; j < 4; ++j) {
-        if (facet_of(beyond, j) == kUnmatched &&
-            neighbour(beyond, j) == static_cast<std::int32_t>(c) &&
-            corners_of(beyond, j) == corners_of(c, k)) {
-          facet_of_side_[4 * beyond + j] = f;
-          ++matches;
-        }
+        if (neighbour(beyond, j) != static_cast<std::int32_t>(c)) continue;
+        if (corners_of(beyond, j) != corners_of(c, k)) continue;
+        match = j;
+        ++matches;
       }
-      if (matches != 1) {
-        return "cells " + std::to_string(c) + " and " + std::to_string(other) + " do not match";
-      }
+      if (matches != 1) return true;
+      if (!names(c, k)) facet_of_side_[4 * c + k] = facet_of(beyond, match);
     }
-  }
-  return {};
+    return false;
+  });
+  if (unmatched == cell_count()) return {};
+  return "cell " + std::to_string(unmatched) + " does not match its neighbours";
 }
 
 Finding Checker::check_sizes() {
@@ -284,46 +319,44 @@ std::string Checker::quantise() {
   capacities_.assign(facets_.size(), 0);
   if (facets_.empty()) return {};
   std::vector<double> areas(facets_.size());
-  double largest = 0;
-  for (std::size_t f = 0; f < facets_.size(); ++f) {
+  const std::size_t endless = first_of(facets_.size(), [&](std::size_t f) {
     const auto [i, j, k] = corners_of(facets_[f].cell, facets_[f].corner);
     const Point3& a = complex_.points[i];
     const Point3 normal = cross(complex_.points[j] - a, complex_.points[k] - a);
     areas[f] = 0.5 * std::sqrt(dot(normal, normal)) / (claim_.unit * claim_.unit);
-    if (!std::isfinite(areas[f])) return "facet " + std::to_string(f) + " has no finite area";
-    largest = std::max(largest, areas[f]);
-  }
+    return !std::isfinite(areas[f]);
+  });
+  if (endless < facets_.size()) return "facet " + std::to_string(endless) + " has no finite area";
+  const double largest = *std::max_element(areas.begin(), areas.end());
   if (largest == 0) return "no facet has an area";
 
   const std::int64_t limit = std::int64_t{1} << claim_.area_bits;
   int magnitude = 0;  // largest in [2^(magnitude - 1), 2^magnitude)
   std::frexp(largest, &magnitude);
   for (int exponent = claim_.area_bits - magnitude + 2;; --exponent) {
-    std::int64_t sum = 0;
-    for (std::size_t f = 0; f < areas.size() && sum <= limit; ++f) {
-      // At most 2^(area_bits + 2), so neither the rounding nor the sum can overflow.
+    const Wide sum = sum_of(facets_.size(), [&](std::size_t f) -> Wide {
+      // At most 2^(area_bits + 2), so the rounding cannot overflow.
       const std::int64_t quanta = std::llround(std::ldexp(areas[f], exponent));
-      capacities_[f] = std::max(std::int64_t{1}, quanta);
-      sum += std::max(std::int64_t{1}, quanta);
-    }
+      return capacities_[f] = std::max(std::int64_t{1}, quanta);
+    });
     if (sum <= limit) break;
     if (exponent + magnitude < -1) return "even one quantum a facet exceeds 2^area_bits";
   }
   const auto& [numerator, denominator] = claim_.lambda;
-  for (std::size_t f = 0; f < facets_.size(); ++f) {
+  const std::size_t beyond_area = first_of(facets_.size(), [&](std::size_t f) {
     if (claim_.supported == nullptr) {
       const auto [cell, corner] = facets_[f];
       const bool differ = claim_.initial[cell] != initial(neighbour(cell, corner));
       capacities_[f] *= differ ? denominator : numerator;
-      continue;
+      return false;
     }
     const Wide supported = (*claim_.supported)[f];
-    if (supported < 0 || supported > capacities_[f]) {
-      return "facet " + std::to_string(f) + " has more support than area";
-    }
+    if (supported < 0 || supported > capacities_[f]) return true;
     capacities_[f] = supported * denominator + (capacities_[f] - supported) * numerator;
-  }
-  return {};
+    return false;
+  });
+  if (beyond_area == facets_.size()) return {};
+  return "facet " + std::to_string(beyond_area) + " has more support than area";
 }
 
 Finding Checker::check_capacities() {
@@ -332,20 +365,23 @@ Finding Checker::check_capacities() {
     capacities_.clear();
     return failed(std::move(defect));
   }
-  std::size_t saturated = 0;
-  for (std::size_t f = 0; f < facets_.size(); ++f) {
+  const auto magnitude = [this](std::size_t f) {
     const Wide flow = claim_.facet_flow[f];
-    const Wide magnitude = flow < 0 ? -flow : flow;
-    if (magnitude > capacities_[f]) {
-      const auto [cell, corner] = facets_[f];
-      return failed("facet " + std::to_string(f) + " between cell " + std::to_string(cell) +
-                    " and " + cell_name(neighbour(cell, corner)) + " carries " + decimal(flow) +
-                    ", its capacity is " + decimal(capacities_[f]));
-    }
-    if (magnitude == capacities_[f]) ++saturated;
+    return flow < 0 ? -flow : flow;
+  };
+  const std::size_t over =
+      first_of(facets_.size(), [&](std::size_t f) { return magnitude(f) > capacities_[f]; });
+  if (over < facets_.size()) {
+    const auto [cell, corner] = facets_[over];
+    return failed("facet " + std::to_string(over) + " between cell " + std::to_string(cell) +
+                  " and " + cell_name(neighbour(cell, corner)) + " carries " +
+                  decimal(claim_.facet_flow[over]) + ", its capacity is " +
+                  decimal(capacities_[over]));
   }
-  return {true, std::to_string(saturated) + " of " + std::to_string(facets_.size()) +
-                    " facets saturated"};
+  const Wide saturated = sum_of(facets_.size(), [&](std::size_t f) -> Wide {
+    return magnitude(f) == capacities_[f] ? 1 : 0;
+  });
+  return {true, decimal(saturated) + " of " + std::to_string(facets_.size()) + " facets saturated"};
 }
 
 Finding Checker::check_conservation() const {

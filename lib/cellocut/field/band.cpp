@@ -4,27 +4,16 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <utility>
 
 namespace cellocut {
 
 namespace {
 
-// Covers the rounding of distances in index coordinates (below 1e-9 for grids of up to 1e5 steps).
-constexpr double kSlack = 1e-7;
-
-// Rounds to odd multiples of 2^-15, for |x| < 2^37 (the first sum has 2^-14 for its last place). An
-// input that is scaled or moved has distances that differ in their last bits; so rounded they are
-// the same, and with them all that follows. None is zero: no grid point lies on the zero set.
-double to_quantum(double x) {
-  constexpr double kShift = 0x1.8p38;
-  return ((x - 0x1p-15) + kShift) - kShift + 0x1p-15;
-}
-
-using Candidates = std::vector<std::uint32_t>;
+using Candidates = LeafDistances::Candidates;
 
 // Holds a triangle.
 struct Ball {
@@ -32,10 +21,22 @@ struct Ball {
   double radius;
 };
 
+template <class Item>
+std::vector<Item> joined(tbb::enumerable_thread_specific<std::vector<Item>>& parts) {
+  std::vector<Item> all;
+  for (std::vector<Item>& part : parts)
+    std::move(part.begin(), part.end(), std::back_inserter(all));
+  return all;
+}
+
+// Calls at_leaf(low, candidates) for each leaf that the band reaches, with all triangles that can
+// be closest to one of its points; from several threads.
+template <class AtLeaf>
 class Descent {
  public:
-  Descent(const std::vector<DistanceTriangle>& triangles, double offset, Observer& observer)
-      : triangles_(triangles), offset_(offset), observer_(observer) {
+  Descent(const std::vector<DistanceTriangle>& triangles, double offset, const AtLeaf& at_leaf,
+          Observer& observer)
+      : triangles_(triangles), offset_(offset), at_leaf_(at_leaf), observer_(observer) {
     balls_.reserve(triangles.size());
     for (const DistanceTriangle& t : triangles) balls_.push_back({t.centre(), t.radius()});
   }
@@ -48,23 +49,11 @@ class Descent {
     visit(openvdb::Coord(0, 0, 0), edge, all);
   }
 
-  Band take() {
-    Band band;
-    for (Band& part : parts_) {
-      std::move(part.leaves.begin(), part.leaves.end(), std::back_inserter(band.leaves));
-      band.inside.insert(band.inside.end(), part.inside.begin(), part.inside.end());
-      band.outside.insert(band.outside.end(), part.outside.begin(), part.outside.end());
-    }
-    return band;
-  }
+  // The cubes that the band does not reach; to be taken once.
+  [[nodiscard]] std::vector<Tile> take_inside() { return joined(inside_); }
+  [[nodiscard]] std::vector<Tile> take_outside() { return joined(outside_); }
 
  private:
-  // Scratch space for the parts of one edge length.
-  struct Workspace {
-    std::vector<Eight> squared;  // distances of a candidate from the centres of the parts
-    Candidates narrowed;
-  };
-
   enum class Place { band, inside, outside };
 
   // Whether the band reaches the grid points low .. low + edge - 1, and if so which of the
@@ -92,7 +81,8 @@ class Descent {
     for (const std::uint32_t t : candidates) {
       // No point of the node is further from the triangles than closest + radius, and none that is
       // further than the band reaches needs to know its distance.
-      const double reach = std::min(closest + radius, offset_ + kBand) + balls_[t].radius + kSlack;
+      const double reach =
+          std::min(closest + radius, offset_ + kBand) + balls_[t].radius + kDistanceSlack;
       const Point3 offset = balls_[t].centre - centre;
       const Point3 beyond{std::max(std::abs(offset[0]) - half, 0.0),
                           std::max(std::abs(offset[1]) - half, 0.0),
@@ -101,14 +91,15 @@ class Descent {
       double bound = norm(offset) - balls_[t].radius;
       if (balls_[t].radius > 0.25 * radius) {
         bound = std::sqrt(triangles_[t].squared_distance(centre));
-        if (bound > closest + 2 * radius + kSlack) continue;
+        if (bound > closest + 2 * radius + kDistanceSlack) continue;
         closest = std::min(closest, bound);
       }
       lower = std::min(lower, bound);
       narrowed.push_back(t);
     }
-    if (narrowed.empty() || lower - offset_ > radius + kBand + kSlack) return Place::outside;
-    if (closest - offset_ < -(radius + kBand + kSlack)) return Place::inside;
+    if (narrowed.empty() || lower - offset_ > radius + kBand + kDistanceSlack)
+      return Place::outside;
+    if (closest - offset_ < -(radius + kBand + kDistanceSlack)) return Place::inside;
     return Place::band;
   }
 
@@ -116,18 +107,16 @@ class Descent {
     Candidates narrowed;
     switch (narrow(low, edge, candidates, narrowed)) {
       case Place::outside:
-        parts_.local().outside.push_back({low, edge});
+        outside_.local().push_back({low, edge});
         return;
       case Place::inside:
-        parts_.local().inside.push_back({low, edge});
+        inside_.local().push_back({low, edge});
         return;
       case Place::band:
         break;
     }
     if (edge == kLeafEdge) {
-      auto leaf = std::make_unique<FieldLeaf>(low, kBand, false);
-      fill(*leaf, low, kLeafEdge, narrowed, workspaces_.local().data());
-      parts_.local().leaves.push_back(std::move(leaf));
+      at_leaf_(low, std::move(narrowed));
       return;
     }
     observer_.check();
@@ -142,78 +131,13 @@ class Descent {
     }
   }
 
-  // Fills the cube of `edge` grid points at `low`, part by eighth part: those that the band does
-  // not reach at once, the others from the candidates that can be closest to one of their points.
-  void fill(FieldLeaf& leaf, const openvdb::Coord& low, int edge, const Candidates& candidates,
-            Workspace* workspace) const {
-    const int half = edge / 2;
-    const EightPoints centres = centres_of_parts(low, half);
-    std::vector<Eight>& squared = workspace->squared;
-    squared.resize(candidates.size());
-    Eight closest;
-    closest.fill(std::numeric_limits<double>::infinity());
-    for (std::size_t i = 0; i < candidates.size(); ++i) {
-      triangles_[candidates[i]].squared_distances(centres, squared[i]);
-      for (std::size_t k = 0; k < 8; ++k) closest[k] = std::min(closest[k], squared[i][k]);
-    }
-    const double radius = std::sqrt(3.0) * 0.5 * (half - 1);
-    for (int k = 0; k < 8; ++k) {
-      const openvdb::Coord part =
-          low.offsetBy((k & 1) * half, ((k >> 1) & 1) * half, (k >> 2) * half);
-      const double distance = std::sqrt(closest[k]);
-      if (half == 1) {
-        set(leaf, part, distance);
-      } else if (distance - offset_ > radius + kBand + kSlack) {
-        continue;  // the leaf was made with +kBand
-      } else if (distance - offset_ < -(radius + kBand + kSlack)) {
-        fill_inside(leaf, part, half);
-      } else {
-        const double reach = std::min(distance + 2 * radius, offset_ + kBand + radius) + kSlack;
-        Candidates& narrowed = workspace->narrowed;
-        narrowed.clear();
-        for (std::size_t i = 0; i < candidates.size(); ++i) {
-          if (squared[i][k] <= reach * reach) narrowed.push_back(candidates[i]);
-        }
-        fill(leaf, part, half, narrowed, workspace + 1);
-      }
-    }
-  }
-
-  static EightPoints centres_of_parts(const openvdb::Coord& low, int edge) {
-    const double middle = 0.5 * (edge - 1);
-    EightPoints centres;
-    for (int k = 0; k < 8; ++k) {
-      centres.x[k] = low.x() + (k & 1) * edge + middle;
-      centres.y[k] = low.y() + ((k >> 1) & 1) * edge + middle;
-      centres.z[k] = low.z() + (k >> 2) * edge + middle;
-    }
-    return centres;
-  }
-
-  void set(FieldLeaf& leaf, const openvdb::Coord& at, double distance) const {
-    const auto phi = static_cast<float>(to_quantum(distance - offset_));
-    if (std::fabs(phi) < kBand) {
-      leaf.setValueOn(at, phi);
-    } else if (phi < 0) {
-      leaf.setValueOff(at, -kBand);
-    }
-  }
-
-  static void fill_inside(FieldLeaf& leaf, const openvdb::Coord& low, int edge) {
-    for (int x = 0; x < edge; ++x) {
-      for (int y = 0; y < edge; ++y) {
-        for (int z = 0; z < edge; ++z) leaf.setValueOff(low.offsetBy(x, y, z), -kBand);
-      }
-    }
-  }
-
   const std::vector<DistanceTriangle>& triangles_;
   std::vector<Ball> balls_;  // one per triangle
   double offset_;
+  const AtLeaf& at_leaf_;
   Observer& observer_;
-  // One per thread; the levels within a leaf are three.
-  tbb::enumerable_thread_specific<Band> parts_;
-  tbb::enumerable_thread_specific<std::array<Workspace, 3>> workspaces_;
+  tbb::enumerable_thread_specific<std::vector<Tile>> inside_;
+  tbb::enumerable_thread_specific<std::vector<Tile>> outside_;
 };
 
 using CoordIterator = std::vector<openvdb::Coord>::iterator;
@@ -247,9 +171,30 @@ void split(const openvdb::Coord& low, int edge, CoordIterator begin, CoordIterat
 
 Band find_band(const std::vector<DistanceTriangle>& triangles, int extent, double offset,
                Observer& observer) {
-  Descent descent(triangles, offset, observer);
+  tbb::enumerable_thread_specific<std::vector<std::unique_ptr<FieldLeaf>>> leaves;
+  LeafDistances distances(triangles, offset);
+  const auto fill = [&](const openvdb::Coord& low, const Candidates& candidates) {
+    auto leaf = std::make_unique<FieldLeaf>(low, kBand, false);
+    distances.fill(*leaf, candidates);
+    leaves.local().push_back(std::move(leaf));
+  };
+  Descent descent(triangles, offset, fill, observer);
   descent.run(extent);
-  return descent.take();
+  return {joined(leaves), descent.take_inside(), descent.take_outside()};
+}
+
+std::vector<BandLeaf> list_band(const std::vector<DistanceTriangle>& triangles, int extent,
+                                Observer& observer) {
+  tbb::enumerable_thread_specific<std::vector<BandLeaf>> leaves;
+  const auto list = [&](const openvdb::Coord& low, Candidates&& candidates) {
+    leaves.local().push_back({low, std::move(candidates)});
+  };
+  Descent descent(triangles, 0.0, list, observer);
+  descent.run(extent);
+  std::vector<BandLeaf> all = joined(leaves);
+  std::sort(all.begin(), all.end(),
+            [](const BandLeaf& a, const BandLeaf& b) { return a.low < b.low; });
+  return all;
 }
 
 std::vector<Tile> tiles_between(std::vector<openvdb::Coord> leaves, int extent) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cellocut/base/observer.h"
+#include "cellocut/field/leaf_distances.h"
 #include "cellocut/field/sparse_grid.h"
 #include "cellocut/field/triangle_set.h"
 
@@ -29,6 +30,16 @@ struct Band {
 // threads. Errors: Cancelled.
 Band find_band(const std::vector<DistanceTriangle>& triangles, int extent, double offset,
                Observer& observer);
+
+// A leaf that a band reaches, and which triangles can be closest to one of its points.
+struct BandLeaf {
+  openvdb::Coord low;
+  LeafDistances::Candidates candidates;
+};
+
+// The leaves that find_band() fills at offset 0, by `low`.
+std::vector<BandLeaf> list_band(const std::vector<DistanceTriangle>& triangles, int extent,
+                                Observer& observer);
 
 // The cubes between the leaves that begin at `leaves`: together they cover [0, 2^k)^3, 2^k >=
 // extent. O(leaves * k).

@@ -28,6 +28,23 @@ class LineCrossings {
     return ((below - first_[line]) & 1) != 0;
   }
 
+  // The same for the grid points low, low + 1 and so on, by bits; count <= 32.
+  [[nodiscard]] std::uint32_t inside_row(int low, int count, int j, int k) const {
+    const std::size_t line = line_number(j, k);
+    const std::uint32_t all = count < 32 ? (1U << count) - 1 : ~0U;
+    std::uint32_t mask = 0;
+    for (std::size_t n = first_[line]; n < first_[line + 1]; ++n) {
+      if (crossing_[n] < low) {
+        mask = ~mask;
+        continue;
+      }
+      const double first = std::floor(crossing_[n]) + 1 - low;  // that lies beyond the crossing
+      if (first >= count) break;
+      mask ^= ~0U << static_cast<unsigned>(first);
+    }
+    return mask & all;
+  }
+
   // How many grid points in [low, high) of the line are inside.
   [[nodiscard]] std::int64_t count_inside(int low, int high, int j, int k) const {
     const std::size_t line = line_number(j, k);

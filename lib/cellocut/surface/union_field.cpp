@@ -3,50 +3,20 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <functional>
 #include <memory>
-#include <numeric>
 
 #include "cellocut/field/band.h"
 #include "cellocut/field/leaf_walk.h"
-#include "cellocut/field/line_crossings.h"
-#include "cellocut/surface/interface.h"
+#include "cellocut/surface/cell_region.h"
 
 namespace cellocut {
 
 namespace {
 
 using LeafPointer = std::unique_ptr<FieldLeaf>;
-
-// A region of cells on the grid: its boundary, and which grid points lie in it.
-class CellRegion {
- public:
-  CellRegion(const TetComplex& complex, const CellLabels& region, const Frame& frame)
-      : boundary_(interface_triangles(complex, list_interface(complex, region))),
-        crossings_(boundary_, frame, 0),
-        extent_(frame.extent) {}
-
-  [[nodiscard]] const TriangleSoup& boundary() const { return boundary_; }
-
-  [[nodiscard]] bool contains(const openvdb::Coord& at) const {
-    return at.y() < extent_ && at.z() < extent_ && crossings_.inside(at.x(), at.y(), at.z());
-  }
-  // How many points of the cube lie in the region.
-  [[nodiscard]] std::int64_t count(const Tile& tile) const {
-    std::int64_t points = 0;
-    for (int y = tile.low.y(); y < std::min(tile.low.y() + tile.edge, extent_); ++y) {
-      for (int z = tile.low.z(); z < std::min(tile.low.z() + tile.edge, extent_); ++z) {
-        points += crossings_.count_inside(tile.low.x(), tile.low.x() + tile.edge, y, z);
-      }
-    }
-    return points;
-  }
-
- private:
-  TriangleSoup boundary_;
-  LineCrossings crossings_;
-  int extent_;
-};
 
 CellLabels absorbed_cells(const CellLabels& initial, const CellLabels& label) {
   CellLabels absorbed(label.size(), kExterior);
@@ -56,64 +26,13 @@ CellLabels absorbed_cells(const CellLabels& initial, const CellLabels& label) {
   return absorbed;
 }
 
-// The blocks that either field has stored, by their first points.
-std::vector<openvdb::Coord> merge_blocks(const FieldTree& phi,
-                                         const std::vector<LeafPointer>& band) {
+// The blocks that the band of either field reaches, by their first points.
+std::vector<openvdb::Coord> merge_blocks(const FieldTree& phi, const std::vector<BandLeaf>& band) {
   std::vector<openvdb::Coord> blocks;
   for (auto leaf = phi.cbeginLeaf(); leaf; ++leaf) blocks.push_back(leaf->origin());
-  for (const LeafPointer& leaf : band) blocks.push_back(leaf->origin());
+  for (const BandLeaf& leaf : band) blocks.push_back(leaf.low);
   std::sort(blocks.begin(), blocks.end());
   blocks.erase(std::unique(blocks.begin(), blocks.end()), blocks.end());
-  return blocks;
-}
-
-void store(FieldLeaf& leaf, std::uint32_t offset, float value) {
-  if (std::fabs(value) < kBand) {
-    leaf.setValueOn(offset, value);
-  } else {
-    leaf.setValueOff(offset, value < 0 ? -kBand : kBand);
-  }
-}
-
-// The blocks that hold the combined field, and their first points.
-struct Blocks {
-  std::vector<openvdb::Coord> low;
-  std::vector<LeafPointer> leaves;
-};
-
-// min(phi, signed distance to the region) in one block.
-LeafPointer combine(const openvdb::Coord& low, const FieldTree& phi, const FieldLeaf* distance,
-                    const CellRegion& absorbed) {
-  auto leaf = std::make_unique<FieldLeaf>(low, kBand, false);
-  const FieldLeaf* phi_leaf = phi.probeConstLeaf(low);
-  const float phi_tile = phi_leaf == nullptr ? phi.getValue(low) : 0.0F;
-  for (std::uint32_t n = 0; n < FieldLeaf::SIZE; ++n) {
-    const float thick = phi_leaf == nullptr ? phi_tile : phi_leaf->getValue(n);
-    float region = distance == nullptr ? kBand : distance->getValue(n);
-    if (absorbed.contains(low + FieldLeaf::offsetToLocalCoord(n))) region = -region;
-    store(*leaf, n, std::min(thick, region));
-  }
-  return leaf;
-}
-
-// min(phi, signed distance to the absorbed region) wherever it is within the band.
-Blocks combine(const FieldTree& phi, const CellRegion& absorbed, const Frame& frame,
-               Observer& observer) {
-  Band band;
-  if (!absorbed.boundary().empty()) {
-    const TriangleSet set = make_triangle_set(absorbed.boundary(), frame);
-    band = find_band(set.triangles, frame.extent, 0.0, observer);
-  }
-  Blocks blocks;
-  blocks.low = merge_blocks(phi, band.leaves);
-  blocks.leaves.resize(blocks.low.size());
-  FieldTree distance(kBand);
-  for (LeafPointer& leaf : band.leaves) distance.addLeaf(leaf.release());
-  tbb::parallel_for(std::size_t{0}, blocks.low.size(), [&](std::size_t n) {
-    const openvdb::Coord& low = blocks.low[n];
-    blocks.leaves[n] = combine(low, phi, distance.probeConstLeaf(low), absorbed);
-  });
-  observer.check();
   return blocks;
 }
 
@@ -123,11 +42,10 @@ constexpr std::int64_t points_of(const Tile& tile) {
 
 // Adds blocks where the tile, which is outside, meets cells of the region: there its points are not
 // all alike. What meets none stays a tile.
-void split_tile(const Tile& tile, const CellRegion& region, Blocks& blocks) {
+void split_tile(const Tile& tile, const CellRegion& region, std::vector<openvdb::Coord>& blocks) {
   if (region.count(tile) == 0) return;
   if (tile.edge == kLeafEdge) {
-    blocks.low.push_back(tile.low);
-    blocks.leaves.push_back(std::make_unique<FieldLeaf>(tile.low, kBand, false));
+    blocks.push_back(tile.low);
     return;
   }
   const int half = tile.edge / 2;
@@ -138,31 +56,47 @@ void split_tile(const Tile& tile, const CellRegion& region, Blocks& blocks) {
   }
 }
 
-// The points of the blocks that are not solid, beyond the interior cells and in them.
-struct OutsidePoints {
-  std::vector<LeafMask> beyond_cells;
-  std::vector<LeafMask> in_cells;
-  std::int64_t solid_beyond_cells = 0;
+// phi in one block.
+class BlockPhi {
+ public:
+  BlockPhi(const FieldTree& phi, const openvdb::Coord& low)
+      : leaf_(phi.probeConstLeaf(low)), tile_(leaf_ == nullptr ? phi.getValue(low) : 0.0F) {}
+  float operator[](std::uint32_t n) const { return leaf_ == nullptr ? tile_ : leaf_->getValue(n); }
+
+ private:
+  const FieldLeaf* leaf_;
+  float tile_;
 };
 
-OutsidePoints find_outside(const Blocks& blocks, const CellRegion& interior) {
-  OutsidePoints outside;
-  outside.beyond_cells.resize(blocks.low.size());
-  outside.in_cells.resize(blocks.low.size());
-  std::vector<std::int64_t> solid(blocks.low.size(), 0);
-  tbb::parallel_for(std::size_t{0}, blocks.low.size(), [&](std::size_t block) {
-    for (std::uint32_t n = 0; n < FieldLeaf::SIZE; ++n) {
-      const bool in_cell = interior.contains(blocks.low[block] + FieldLeaf::offsetToLocalCoord(n));
-      if (blocks.leaves[block]->getValue(n) > 0) {
-        LeafMask& mask = (in_cell ? outside.in_cells : outside.beyond_cells)[block];
-        add_point(mask, n);
-      } else if (!in_cell) {
-        ++solid[block];
-      }
-    }
-  });
-  outside.solid_beyond_cells = std::accumulate(solid.begin(), solid.end(), std::int64_t{0});
-  return outside;
+using Masks = std::vector<LeafMask>;
+
+// What the points of the blocks are, by block.
+struct Points {
+  Masks absorbed;   // in the absorbed region
+  Masks in_cells;   // in an interior cell
+  Masks outside;    // neither in the slab nor in the absorbed region
+  Masks open;       // those of `outside` that stay so
+  Masks near_open;  // those, and points at most three grid edges from one
+
+  explicit Points(std::size_t blocks)
+      : absorbed(blocks), in_cells(blocks), outside(blocks), open(blocks) {}
+};
+
+template <class Combine>
+Masks combined(const Masks& a, const Masks& b, const Combine& combine) {
+  Masks masks(a.size());
+  for (std::size_t block = 0; block < masks.size(); ++block) {
+    for (int x = 0; x < kLeafEdge; ++x) masks[block][x] = combine(a[block][x], b[block][x]);
+  }
+  return masks;
+}
+
+double count_points(const Masks& masks) {
+  std::int64_t count = 0;
+  for (const LeafMask& mask : masks) {
+    for (const std::uint64_t word : mask) count += std::popcount(word);
+  }
+  return static_cast<double>(count);
 }
 
 // How far, in grid steps, a point outside may lie within the interior cells: what the facets of the
@@ -170,7 +104,92 @@ OutsidePoints find_outside(const Blocks& blocks, const CellRegion& interior) {
 // a tile that is outside, not even across a corner.
 constexpr int kOpenSteps = 4;
 
+// `tiles`: negative where what lies between the blocks is inside.
+Points classify(const std::vector<openvdb::Coord>& blocks, const FieldTree& phi,
+                const CellRegion& absorbed, const CellRegion& interior, const FieldTree& tiles,
+                Observer& observer) {
+  Points points(blocks.size());
+  tbb::parallel_for(std::size_t{0}, blocks.size(), [&](std::size_t block) {
+    points.absorbed[block] = absorbed.points_of_leaf(blocks[block]);
+    points.in_cells[block] = interior.points_of_leaf(blocks[block]);
+    const BlockPhi thick(phi, blocks[block]);
+    for (std::uint32_t n = 0; n < FieldLeaf::SIZE; ++n) {
+      if (thick[n] > 0) add_point(points.outside[block], n);
+    }
+    for (int x = 0; x < kLeafEdge; ++x) points.outside[block][x] &= ~points.absorbed[block][x];
+  });
+  const Masks through = combined(points.outside, points.in_cells, std::bit_and<>());
+  points.open = combined(points.outside, through, std::bit_xor<>());
+  walk_leaves(blocks, tiles, through, kOpenSteps, points.open, observer);
+  LeafMask all{};
+  all.fill(~std::uint64_t{0});
+  points.near_open = points.open;
+  walk_leaves(blocks, tiles, Masks(blocks.size(), all), 3, points.near_open, observer);
+  return points;
+}
+
+void store(FieldLeaf& leaf, std::uint32_t offset, float value) {
+  if (std::fabs(value) < kBand) {
+    leaf.setValueOn(offset, value);
+  } else {
+    leaf.setValueOff(offset, value < 0 ? -kBand : kBand);
+  }
+}
+
+// More than the rounding of stored distances.
+constexpr float kRounding = 0x1p-12F;
 constexpr float kLargestStored = kBand - 0x1p-15F;
+
+// The combined field in one block.
+class Combination {
+ public:
+  Combination(const openvdb::Coord& low, const FieldTree& phi, const Points& points,
+              std::size_t block)
+      : low_(low), phi_(phi, low), points_(points), block_(block) {}
+
+  // How far from the region's boundary a point must know to be, that the zero set of min(phi,
+  // signed distance to the region) be exact, once points are closed. It passes only through cells
+  // of the grid that have an open point, so what is not near one need not know: most of the
+  // boundary of what a solid has absorbed lies behind its slab. Outside the region the minimum is
+  // phi unless the distance is less, and negative in the slab.
+  [[nodiscard]] LeafReach reach() const {
+    LeafReach reach;
+    for (std::uint32_t n = 0; n < FieldLeaf::SIZE; ++n) {
+      if (!has_point(points_.near_open[block_], n)) {
+        reach[n] = -1;
+      } else if (has_point(points_.absorbed[block_], n)) {
+        reach[n] = kBand;
+      } else {
+        reach[n] = phi_[n] < 0 ? -1 : std::min(phi_[n] + kRounding, kBand);
+      }
+    }
+    return reach;
+  }
+
+  // `distance` from the region's boundary, where it is within the reach.
+  [[nodiscard]] LeafPointer leaf(const FieldLeaf& distance) const {
+    auto leaf = std::make_unique<FieldLeaf>(low_, kBand, false);
+    for (std::uint32_t n = 0; n < FieldLeaf::SIZE; ++n) {
+      const bool absorbed = has_point(points_.absorbed[block_], n);
+      const float region = absorbed ? -distance.getValue(n) : distance.getValue(n);
+      const float value = std::min(phi_[n], region);
+      if (has_point(points_.outside[block_], n) && has_point(points_.in_cells[block_], n)) {
+        // Stored even beyond the band: what stays and what does not may be neighbours there.
+        const float size = std::min(value, kLargestStored);
+        leaf->setValueOn(n, has_point(points_.open[block_], n) ? size : -size);
+      } else {
+        store(*leaf, n, value);
+      }
+    }
+    return leaf;
+  }
+
+ private:
+  const openvdb::Coord& low_;
+  BlockPhi phi_;
+  const Points& points_;
+  std::size_t block_;
+};
 
 }  // namespace
 
@@ -180,48 +199,59 @@ UnionField compute_union_field(const SparseField& phi, const TetComplex& complex
   const FieldTree& phi_tree = phi.grid().tree;
   const CellRegion absorbed(complex, absorbed_cells(initial, label), frame);
   const CellRegion interior(complex, label, frame);
-  Blocks blocks = combine(phi_tree, absorbed, frame, observer);
+  TriangleSet boundary;
+  std::vector<BandLeaf> band;
+  if (!absorbed.boundary().empty()) {
+    boundary = make_triangle_set(absorbed.boundary(), frame);
+    band = list_band(boundary.triangles, frame.extent, observer);
+  }
+  std::vector<openvdb::Coord> blocks = merge_blocks(phi_tree, band);
 
   // Between the blocks neither field changes its sign.
   auto grid = std::make_shared<SparseField::Grid>();
-  std::int64_t beyond = 0;
-  for (const Tile& tile : tiles_between(blocks.low, frame.extent)) {
+  double beyond = 0;
+  for (const Tile& tile : tiles_between(blocks, frame.extent)) {
     if (phi_tree.getValue(tile.low) < 0 || absorbed.contains(tile.low)) {
       add_inside_tile(grid->tree, tile);
-      beyond += points_of(tile) - interior.count(tile);
+      beyond += static_cast<double>(points_of(tile) - interior.count(tile));
     } else {
       split_tile(tile, interior, blocks);
     }
   }
   observer.check();
 
-  const OutsidePoints outside = find_outside(blocks, interior);
-  std::vector<LeafMask> open = outside.beyond_cells;
-  walk_leaves(blocks.low, grid->tree, outside.in_cells, kOpenSteps, open, observer);
-  std::vector<std::int64_t> left_out(blocks.low.size(), 0);
-  std::vector<std::int64_t> closed(blocks.low.size(), 0);
-  tbb::parallel_for(std::size_t{0}, blocks.low.size(), [&](std::size_t block) {
-    FieldLeaf& leaf = *blocks.leaves[block];
-    for (std::uint32_t n = 0; n < FieldLeaf::SIZE; ++n) {
-      if (!has_point(outside.in_cells[block], n)) continue;
-      const bool stays = has_point(open[block], n);
-      ++(stays ? left_out : closed)[block];
-      // Stored even beyond the band: what stays and what does not may be neighbours there.
-      const float value = std::min(leaf.getValue(n), kLargestStored);
-      leaf.setValueOn(n, stays ? value : -value);
+  const Points points = classify(blocks, phi_tree, absorbed, interior, grid->tree, observer);
+  LeafDistances distances(boundary.triangles, 0.0);
+  std::vector<LeafPointer> leaves(blocks.size());
+  tbb::parallel_for(std::size_t{0}, blocks.size(), [&](std::size_t block) {
+    const Combination combination(blocks[block], phi_tree, points, block);
+    FieldLeaf distance(blocks[block], kBand, false);
+    const auto near = std::lower_bound(
+        band.begin(), band.end(), blocks[block],
+        [](const BandLeaf& leaf, const openvdb::Coord& low) { return leaf.low < low; });
+    if (near != band.end() && near->low == blocks[block]) {
+      const LeafReach reach = combination.reach();
+      if (std::any_of(reach.begin(), reach.end(), [](float x) { return x >= 0; })) {
+        distances.fill(distance, near->candidates, &reach);
+      }
     }
+    leaves[block] = combination.leaf(distance);
   });
-  for (LeafPointer& leaf : blocks.leaves) grid->tree.addLeaf(leaf.release());
+  observer.check();
+  for (LeafPointer& leaf : leaves) grid->tree.addLeaf(leaf.release());
 
-  const auto sum = [](const std::vector<std::int64_t>& counts) {
-    return static_cast<double>(std::accumulate(counts.begin(), counts.end(), std::int64_t{0}));
-  };
   UnionField result;
   result.field = SparseField(std::move(grid));
+  const auto solid_beyond = [](std::uint64_t outside, std::uint64_t in_cells) {
+    return ~outside & ~in_cells;
+  };
+  const Masks outside_in_cells = combined(points.outside, points.in_cells, std::bit_and<>());
+  const Masks stays = combined(outside_in_cells, points.open, std::bit_and<>());
   const double volume = frame.spacing * frame.spacing * frame.spacing;
-  result.departures.beyond = static_cast<double>(beyond + outside.solid_beyond_cells) * volume;
-  result.departures.left_out = sum(left_out) * volume;
-  result.departures.closed = sum(closed) * volume;
+  beyond += count_points(combined(points.outside, points.in_cells, solid_beyond));
+  result.departures.beyond = beyond * volume;
+  result.departures.left_out = count_points(stays) * volume;
+  result.departures.closed = (count_points(outside_in_cells) - count_points(stays)) * volume;
   return result;
 }
 

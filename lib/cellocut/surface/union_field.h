@@ -18,7 +18,9 @@ struct LabellingDepartures {
 };
 
 struct UnionField {
-  SparseField field;  // negative inside, in grid steps; 1-Lipschitz where none is closed
+  // Negative inside, in grid steps. The values are those below in all cells of the grid that have a
+  // point outside, and so wherever the zero set passes; elsewhere the sign alone is certain.
+  SparseField field;
   LabellingDepartures departures;
 };
 

@@ -24,8 +24,8 @@ constexpr double kMostOfAComponent = 0.3;  // of its area
 
 void require_watertight(const TriangleSoup& model) {
   if (model.empty()) throw InputError("no faces");
-  const Incidence incidence =
-      count_incidence(model.triangles, model.points.size(), silent_observer());
+  const Incidence incidence = count_incidence(
+      model.triangles, corners_by_point(model.triangles, model.points.size()), silent_observer());
   const IncidenceCounts& counts = incidence.counts;
   const auto repeated = static_cast<std::int64_t>(model.triangles.size()) - incidence.proper_faces;
   const std::int64_t wrong = counts.boundary_edges + counts.nonmanifold_edges +
@@ -81,7 +81,9 @@ class Damager {
       areas_.push_back(triangle_area(p[t[0]], p[t[1]], p[t[2]]));
     }
     total_ = std::accumulate(areas_.begin(), areas_.end(), 0.0);
-    component_ = count_incidence(model.triangles, p.size(), silent_observer()).component;
+    component_ = count_incidence(model.triangles, corners_by_point(model.triangles, p.size()),
+                                 silent_observer())
+                     .component;
     component_area_.resize(areas_.size(), 0);
     for (std::size_t f = 0; f < areas_.size(); ++f) component_area_[component_[f]] += areas_[f];
     scan_lines_ = dice_.direction();

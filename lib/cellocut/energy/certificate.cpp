@@ -334,9 +334,14 @@ std::string Checker::quantise() {
   int magnitude = 0;  // largest in [2^(magnitude - 1), 2^magnitude)
   std::frexp(largest, &magnitude);
   for (int exponent = claim_.area_bits - magnitude + 2;; --exponent) {
+    // In two steps, since areas may be so small that their scale is no double.
+    const double first_scale = std::ldexp(1.0, exponent / 2);
+    const double second_scale = std::ldexp(1.0, exponent - exponent / 2);
     const Wide sum = sum_of(facets_.size(), [&](std::size_t f) -> Wide {
-      // At most 2^(area_bits + 2), so the rounding cannot overflow.
-      const std::int64_t quanta = std::llround(std::ldexp(areas[f], exponent));
+      // At most 2^(area_bits + 2): whole numbers of quanta and halves of them are exact.
+      const double scaled = areas[f] * first_scale * second_scale;
+      const auto whole = static_cast<std::int64_t>(scaled);
+      const std::int64_t quanta = scaled - static_cast<double>(whole) >= 0.5 ? whole + 1 : whole;
       return capacities_[f] = std::max(std::int64_t{1}, quanta);
     });
     if (sum <= limit) break;

@@ -10,6 +10,7 @@
 #include "cellocut/surface/live_faces.h"
 #include "cellocut/validity/buckets.h"
 #include "cellocut/validity/face_filter.h"
+#include "cellocut/validity/incidence.h"
 #include "cellocut/validity/intersections.h"
 #include "cellocut/validity/triangle_pair.h"
 
@@ -50,14 +51,13 @@ class Movement {
     LiveFaces live(result_.points, triangles_);
     observer_.check();
     Pairs bad = hide_degenerate(moved, live);
+    const Buckets corners_at = corners_by_point(triangles_, from_.size());
     // Where most of the mesh moves, one search for all pairs is the quicker way.
     const bool most = moved.size() > triangles_.size() / 4;
-    join(bad, most ? intersecting(live) : intersecting_among(moved, live));
+    join(bad, most ? intersecting(live, corners_at) : intersecting_among(moved, live));
     if (bad.empty()) return std::move(result_);
     result_.bad_faces_at_first = count_faces(bad);
 
-    const Buckets corners_at(from_.size(), 3 * triangles_.size(),
-                             [this](std::size_t i) { return triangles_[i / 3][i % 3]; });
     while (!bad.empty()) {
       observer_.check();
       ++result_.rounds;
@@ -106,10 +106,11 @@ class Movement {
   }
 
   // All pairs of faces that intersect; those hidden take no part, here and below.
-  [[nodiscard]] Pairs intersecting(const LiveFaces& live) const {
+  [[nodiscard]] Pairs intersecting(const LiveFaces& live, const Buckets& corners_at) const {
+    const EmbeddedStars stars(result_.points, triangles_, corners_at);
     tbb::enumerable_thread_specific<Pairs> found;
     visit_intersecting_pairs(
-        live.tree(), result_.points, triangles_,
+        live.tree(), result_.points, triangles_, stars,
         [&found](std::uint32_t f, std::uint32_t g) { found.local().push_back(std::minmax(f, g)); },
         [this](std::size_t) { observer_.check(); });
     return united(found);

@@ -2,35 +2,11 @@
 
 #include <cmath>
 
+#include "cellocut/validity/certain_side.h"
+
 namespace cellocut {
 
 namespace {
-
-constexpr double kUnitRoundoff = 0x1p-53;
-
-// -1 or 1 where the sign of normal . (p - origin) is certain, for the given doubles as they stand,
-// and 0 elsewhere. Each term is off by one rounding of its difference, one of its product and two
-// of sums, so below 5 u times its size; underflow adds less than 1e-300.
-int side_of_plane(const Point3& normal, const Point3& origin, const Point3& p) {
-  double sum = 0;
-  double size = 0;
-  for (int axis = 0; axis < 3; ++axis) {
-    const double term = normal[axis] * (p[axis] - origin[axis]);
-    sum += term;
-    size += std::fabs(term);
-  }
-  const double bound = 8 * kUnitRoundoff * size + 1e-290;
-  return sum > bound ? 1 : (sum < -bound ? -1 : 0);
-}
-
-// The same for the turn from b - a to p - a, seen along an axis (Shewchuk, "Adaptive precision
-// floating-point arithmetic and fast robust geometric predicates", 1997, bounds it by 3 u).
-int side_of_line(const Point3& a, const Point3& b, const Point3& p, int i, int j) {
-  const double left = (b[i] - a[i]) * (p[j] - a[j]);
-  const double right = (b[j] - a[j]) * (p[i] - a[i]);
-  const double bound = 8 * kUnitRoundoff * (std::fabs(left) + std::fabs(right)) + 1e-290;
-  return left - right > bound ? 1 : (left - right < -bound ? -1 : 0);
-}
 
 // Of length between 0.57 and 1: which plane is tried may change what is proved, not the proof.
 Point3 roughly_unit(const Point3& v) {
@@ -97,10 +73,10 @@ bool PreparedFace::certainly_apart(const std::vector<Point3>& points, const Tria
 bool PreparedFace::separated(const Point3& through, const Point3& normal, int corner,
                              const std::array<Point3, 3>& others, int count) const {
   for (int k = 0; k < 3; ++k) {
-    if (k != corner && side_of_plane(normal, through, point_[k]) >= 0) return false;
+    if (k != corner && certain_side_of_plane(normal, through, point_[k]) >= 0) return false;
   }
   for (int i = 0; i < count; ++i) {
-    if (side_of_plane(normal, through, others[i]) <= 0) return false;
+    if (certain_side_of_plane(normal, through, others[i]) <= 0) return false;
   }
   return true;
 }
@@ -128,7 +104,8 @@ bool PreparedFace::across_edge(int third, const Point3& p) const {
   const Point3& b = point_[(third + 2) % 3];
   for (int i = 0; i < 3; ++i) {
     const int j = (i + 1) % 3;
-    if (side_of_line(a, b, point_[third], i, j) * side_of_line(a, b, p, i, j) < 0) return true;
+    if (certain_side_of_line(a, b, point_[third], i, j) * certain_side_of_line(a, b, p, i, j) < 0)
+      return true;
   }
   return false;
 }
@@ -153,10 +130,10 @@ bool PreparedFace::across_any_side(int corner, const std::array<Point3, 3>& othe
       if (third == through) continue;
       const Point3& a = face[(third + 1) % 3];
       const Point3& b = face[(third + 2) % 3];
-      const int side = side_of_line(a, b, face[third], i, j);
+      const int side = certain_side_of_line(a, b, face[third], i, j);
       bool apart = side != 0;
       for (int k = 0; k < 3 && apart; ++k) {
-        apart = k == skipped || side_of_line(a, b, rest[k], i, j) == -side;
+        apart = k == skipped || certain_side_of_line(a, b, rest[k], i, j) == -side;
       }
       if (apart) return true;
     }

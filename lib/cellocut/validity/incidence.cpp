@@ -195,15 +195,19 @@ void add(IncidenceCounts& sum, const IncidenceCounts& part) {
 
 }  // namespace
 
-Incidence count_incidence(const std::vector<Triangle>& triangles, std::size_t points,
+Buckets corners_by_point(const std::vector<Triangle>& triangles, std::size_t points) {
+  return {points, 3 * triangles.size(), [&](std::size_t corner) {
+            const Triangle& triangle = triangles[corner / 3];
+            return is_proper(triangle) ? triangle[corner % 3] : kNoBucket;
+          }};
+}
+
+Incidence count_incidence(const std::vector<Triangle>& triangles, const Buckets& corners_at,
                           const Observer& observer) {
   observer.check();
-  const Buckets corners(points, 3 * triangles.size(), [&](std::size_t corner) {
-    const Triangle& triangle = triangles[corner / 3];
-    return is_proper(triangle) ? triangle[corner % 3] : kNoBucket;
-  });
+  const std::size_t points = corners_at.size();
   ConcurrentSets sets(triangles.size());
-  Counter counter(triangles, corners, sets);
+  Counter counter(triangles, corners_at, sets);
   Incidence result;
   result.nonmanifold_vertex.assign(points, 0);
   tbb::enumerable_thread_specific<Tally> tallies;

@@ -16,6 +16,7 @@
 
 #include "cellocut/base/observer.h"
 #include "cellocut/mesh/triangle_soup.h"
+#include "cellocut/validity/buckets.h"
 #include "cellocut/validity/surface_report.h"
 
 namespace cellocut {
@@ -42,10 +43,14 @@ struct Incidence {
 
 inline bool is_proper(const Triangle& t) { return t[0] != t[1] && t[1] != t[2] && t[2] != t[0]; }
 
+// By point, 3 f + k for each corner k of a proper face f that it is. O(points + faces); parallel.
+// Preconditions: all corners below `points`; fewer than 2^32 corners.
+Buckets corners_by_point(const std::vector<Triangle>& triangles, std::size_t points);
+
+// `corners_at`: as corners_by_point() gives it.
 // O(n + sum over vertices of k log k), k the faces of the vertex; parallel; the same result for any
-// number of threads. Preconditions: all corners below `points`; fewer than 2^32 corners.
-// Errors: Cancelled.
-Incidence count_incidence(const std::vector<Triangle>& triangles, std::size_t points,
+// number of threads. Errors: Cancelled.
+Incidence count_incidence(const std::vector<Triangle>& triangles, const Buckets& corners_at,
                           const Observer& observer);
 
 }  // namespace cellocut

@@ -103,9 +103,11 @@ std::vector<std::vector<std::uint32_t>> size_classes(const std::vector<std::uint
 class Search {
  public:
   Search(const std::vector<Point3>& points, const std::vector<Triangle>& triangles,
-         std::vector<std::uint32_t> faces, std::size_t max_pairs, Observer& observer)
+         const Buckets& corners_at, std::vector<std::uint32_t> faces, std::size_t max_pairs,
+         Observer& observer)
       : points_(points),
         triangles_(triangles),
+        stars_(points, triangles, corners_at),
         faces_(std::move(faces)),
         frame_(bounding_box(points, triangles, faces_)),
         max_pairs_(max_pairs),
@@ -142,7 +144,7 @@ class Search {
   void search_within(const BoxTree& tree, std::size_t members) {
     const double share = static_cast<double>(members) / static_cast<double>(tree.leaf_count());
     visit_intersecting_pairs(
-        tree, points_, triangles_,
+        tree, points_, triangles_, stars_,
         [this](std::uint32_t f, std::uint32_t g) { found_.local().add(f, g, max_pairs_); },
         [this, share](std::size_t leaves) {
           observer_.check();
@@ -189,6 +191,7 @@ class Search {
 
   const std::vector<Point3>& points_;
   const std::vector<Triangle>& triangles_;
+  EmbeddedStars stars_;
   std::vector<std::uint32_t> faces_;
   FloatFrame frame_;
   std::size_t max_pairs_;
@@ -201,6 +204,7 @@ class Search {
 
 IntersectingPairs find_intersecting_pairs(const std::vector<Point3>& points,
                                           const std::vector<Triangle>& triangles,
+                                          const Buckets& corners_at,
                                           const std::vector<std::uint8_t>& takes_part,
                                           std::size_t max_pairs, Observer& observer) {
   std::vector<std::uint32_t> faces;
@@ -209,11 +213,11 @@ IntersectingPairs find_intersecting_pairs(const std::vector<Point3>& points,
     if (takes_part[face] != 0) faces.push_back(face);
   }
   if (faces.empty()) return {};
-  return Search(points, triangles, std::move(faces), max_pairs, observer).run();
+  return Search(points, triangles, corners_at, std::move(faces), max_pairs, observer).run();
 }
 
 void visit_intersecting_pairs(const BoxTree& tree, const std::vector<Point3>& points,
-                              const std::vector<Triangle>& triangles,
+                              const std::vector<Triangle>& triangles, const EmbeddedStars& stars,
                               const std::function<void(std::uint32_t, std::uint32_t)>& found,
                               const std::function<void(std::size_t)>& done) {
   const tbb::blocked_range<std::size_t> leaves(0, tree.leaf_count(), 64);
@@ -224,6 +228,7 @@ void visit_intersecting_pairs(const BoxTree& tree, const std::vector<Point3>& po
       prepared.clear();
       for (const std::uint32_t face : faces) prepared.emplace_back(points, triangles[face]);
       tree.visit_pairs_of_leaf(leaf, [&](std::size_t place, std::uint32_t other) {
+        if (stars.settle(triangles[faces[place]], triangles[other])) return;
         if (prepared[place].certainly_apart(points, triangles[other])) return;
         if (faces_intersect(points, triangles[faces[place]], triangles[other])) {
           found(faces[place], other);

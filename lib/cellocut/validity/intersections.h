@@ -9,6 +9,7 @@
 #include "cellocut/base/observer.h"
 #include "cellocut/mesh/triangle_soup.h"
 #include "cellocut/validity/box_tree.h"
+#include "cellocut/validity/embedded_stars.h"
 
 namespace cellocut {
 
@@ -30,10 +31,12 @@ struct IntersectingPairs {
 // touches. O(n log n + pairs with overlapping boxes) where the faces of a class do not crowd;
 // parallel; the same result for any number of threads.
 //
+// `corners_at`: as corners_by_point() (incidence.h) gives it.
 // Preconditions: the corners of faces that take part are finite, equal coordinates have equal
 // indices, and these faces are not degenerate. Errors: Cancelled.
 IntersectingPairs find_intersecting_pairs(const std::vector<Point3>& points,
                                           const std::vector<Triangle>& triangles,
+                                          const Buckets& corners_at,
                                           const std::vector<std::uint8_t>& takes_part,
                                           std::size_t max_pairs, Observer& observer);
 
@@ -42,7 +45,7 @@ IntersectingPairs find_intersecting_pairs(const std::vector<Point3>& points,
 // leaves have been searched. Both may throw to end the search. Preconditions as above; the box of
 // each face of the tree contains it.
 void visit_intersecting_pairs(const BoxTree& tree, const std::vector<Point3>& points,
-                              const std::vector<Triangle>& triangles,
+                              const std::vector<Triangle>& triangles, const EmbeddedStars& stars,
                               const std::function<void(std::uint32_t, std::uint32_t)>& found,
                               const std::function<void(std::size_t)>& done);
 

@@ -7,8 +7,10 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <optional>
 #include <string>
 
+#include "cellocut/validity/embedded_stars.h"
 #include "cellocut/validity/incidence.h"
 #include "cellocut/validity/intersections.h"
 #include "cellocut/validity/position_merge.h"
@@ -182,7 +184,8 @@ SurfaceReport inspect_surface(const TriangleSoup& mesh, const SurfaceCheckOption
   const std::vector<FaceShape> shapes = judge_shapes(mesh);
   report.degenerate_faces = std::count(shapes.begin(), shapes.end(), FaceShape::degenerate);
 
-  const Incidence by_index = count_incidence(mesh.triangles, mesh.points.size(), observer);
+  std::optional<Buckets> corners_at = corners_by_point(mesh.triangles, mesh.points.size());
+  const Incidence by_index = count_incidence(mesh.triangles, *corners_at, observer);
   report.by_index = by_index.counts;
   report.euler = by_index.vertices - by_index.edges + by_index.proper_faces;
   sum_components(mesh, by_index, shapes, report);
@@ -195,7 +198,8 @@ SurfaceReport inspect_surface(const TriangleSoup& mesh, const SurfaceCheckOption
   if (triangles == mesh.triangles) {  // no two used points in one place
     report.by_position = by_index.counts;
   } else {
-    const Incidence by_position = count_incidence(triangles, mesh.points.size(), observer);
+    corners_at = corners_by_point(triangles, mesh.points.size());
+    const Incidence by_position = count_incidence(triangles, *corners_at, observer);
     report.by_position = by_position.counts;
     count_contacts(mesh, merged, by_index, by_position, report);
   }
@@ -204,8 +208,8 @@ SurfaceReport inspect_surface(const TriangleSoup& mesh, const SurfaceCheckOption
     std::vector<std::uint8_t> takes_part(shapes.size());
     std::transform(shapes.begin(), shapes.end(), takes_part.begin(),
                    [](FaceShape shape) { return shape == FaceShape::proper ? 1 : 0; });
-    IntersectingPairs found =
-        find_intersecting_pairs(mesh.points, triangles, takes_part, options.max_pairs, observer);
+    IntersectingPairs found = find_intersecting_pairs(mesh.points, triangles, *corners_at,
+                                                      takes_part, options.max_pairs, observer);
     report.intersections_tested = true;
     report.intersecting_pairs = found.count;
     report.pairs = std::move(found.first);

@@ -36,7 +36,7 @@ struct RemeshArguments {
   std::string output;
   std::string output_format;
   std::string backend = "cgal";
-  std::string solver;
+  std::string solver = "push_relabel";
   std::string cut = "largest";
   std::string surface = "union";
   std::string vtu;
@@ -63,9 +63,8 @@ void add_arguments(CLI::App& app, RemeshArguments& a) {
                  "name)");
   app.add_option("--backend", a.backend, "Tetrahedralization backend (see cellocut list)")
       ->capture_default_str();
-  app.add_option("--solver", a.solver,
-                 "Minimum-cut solver, see cellocut list (default: bk; push_relabel with "
-                 "--lambda-fill auto, whose many cuts it finds faster)");
+  app.add_option("--solver", a.solver, "Minimum-cut solver (see cellocut list)")
+      ->capture_default_str();
   a.pipeline.add_to(app, LambdaOption::number_or_auto);
   app.add_option("--cut", a.cut, "Which of the minimum cuts: the smallest or the largest interior")
       ->check(CLI::IsMember({"smallest", "largest"}))
@@ -143,7 +142,6 @@ void check_vertex_values(const RemeshArguments& a) {
 
 void complete_options(RemeshArguments& a) {
   a.pipeline.complete();
-  if (a.solver.empty()) a.solver = a.options().lambda_auto ? "push_relabel" : "bk";
   a.options().cut = a.cut == "largest" ? CutChoice::largest : CutChoice::smallest;
   a.options().surface = a.surface == "union" ? SurfaceMode::union_
                         : a.surface == "sdf" ? SurfaceMode::sdf

@@ -27,7 +27,7 @@ struct SolveArguments {
   CommonOptions common;
   std::string input;
   std::string format;
-  std::string solver = "bk";
+  std::string solver = "push_relabel";
   std::string solution;
   std::string check;
   std::string problem;

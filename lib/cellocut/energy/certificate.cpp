@@ -347,7 +347,8 @@ std::string Checker::quantise() {
     if (sum <= limit) break;
     if (exponent + magnitude < -1) return "even one quantum a facet exceeds 2^area_bits";
   }
-  const auto& [numerator, denominator] = claim_.lambda;
+  const Wide numerator = claim_.lambda.numerator;
+  const Wide denominator = claim_.lambda.denominator;
   const std::size_t beyond_area = first_of(facets_.size(), [&](std::size_t f) {
     if (claim_.supported == nullptr) {
       const auto [cell, corner] = facets_[f];

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <optional>
 #include <span>
 
 #include "cellocut/validity/box_tree.h"
@@ -222,17 +223,16 @@ void visit_intersecting_pairs(const BoxTree& tree, const std::vector<Point3>& po
                               const std::function<void(std::size_t)>& done) {
   const tbb::blocked_range<std::size_t> leaves(0, tree.leaf_count(), 64);
   tbb::parallel_for(leaves, [&](const auto& range) {
-    std::vector<PreparedFace> prepared;
+    std::vector<std::optional<PreparedFace>> prepared;
     for (std::size_t leaf = range.begin(); leaf < range.end(); ++leaf) {
       const std::span<const std::uint32_t> faces = tree.ids_of_leaf(leaf);
-      prepared.clear();
-      for (const std::uint32_t face : faces) prepared.emplace_back(points, triangles[face]);
+      prepared.assign(faces.size(), std::nullopt);
       tree.visit_pairs_of_leaf(leaf, [&](std::size_t place, std::uint32_t other) {
-        if (stars.settle(triangles[faces[place]], triangles[other])) return;
-        if (prepared[place].certainly_apart(points, triangles[other])) return;
-        if (faces_intersect(points, triangles[faces[place]], triangles[other])) {
-          found(faces[place], other);
-        }
+        const Triangle& face = triangles[faces[place]];
+        if (stars.settle(face, triangles[other])) return;
+        if (!prepared[place]) prepared[place].emplace(points, face);
+        if (prepared[place]->certainly_apart(points, triangles[other])) return;
+        if (faces_intersect(points, face, triangles[other])) found(faces[place], other);
       });
     }
     done(range.size());

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -49,6 +50,12 @@ bool faces_meet(const TriangleSoup& mesh) {
   return false;
 }
 
+bool has_degenerate_face(const TriangleSoup& mesh) {
+  return std::any_of(mesh.triangles.begin(), mesh.triangles.end(), [&](const Triangle& t) {
+    return is_degenerate(mesh.points[t[0]], mesh.points[t[1]], mesh.points[t[2]]);
+  });
+}
+
 TEST(EmbeddedStars, KnowsAFanThatGoesAroundOnce) {
   EXPECT_TRUE(stars_of(wheel(ring(7, 1, 0.1), true)).embedded(0));
   EXPECT_TRUE(stars_of(wheel(ring(3, 1, 0), true)).embedded(0));
@@ -80,8 +87,12 @@ TEST(EmbeddedStars, NeverSaysSoOfFacesThatMeet) {
       }
     }
     const TriangleSoup mesh = wheel(rim, round % 7 != 0);
-    const bool meet = faces_meet(mesh);
     const bool embedded = stars_of(mesh).embedded(0);
+    if (has_degenerate_face(mesh)) {
+      EXPECT_FALSE(embedded) << "round " << round;
+      continue;
+    }
+    const bool meet = faces_meet(mesh);
     EXPECT_FALSE(meet && embedded) << "round " << round;
     proved += embedded ? 1 : 0;
     meeting += meet ? 1 : 0;

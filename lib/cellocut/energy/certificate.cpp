@@ -30,6 +30,7 @@
 #include <limits>
 #include <utility>
 
+#include "cellocut/base/first_index.h"
 #include "cellocut/base/point.h"
 
 namespace cellocut {
@@ -60,21 +61,6 @@ struct Finding {
 };
 
 Finding failed(std::string detail) { return {false, std::move(detail)}; }
-
-// The lowest index below `count` for which is_bad(index) holds, or `count`. Where none is bad,
-// is_bad has been called once for each; in parallel.
-template <class IsBad>
-std::size_t first_of(std::size_t count, const IsBad& is_bad) {
-  return tbb::parallel_reduce(
-      tbb::blocked_range<std::size_t>(0, count, 1024), count,
-      [&](const auto& range, std::size_t first) {
-        for (std::size_t i = range.begin(); i < range.end(); ++i) {
-          if (is_bad(i)) return std::min(first, i);
-        }
-        return first;
-      },
-      [](std::size_t a, std::size_t b) { return std::min(a, b); });
-}
 
 // The sum of term(index) over all below `count`; in parallel.
 template <class Term>
@@ -269,7 +255,7 @@ std::string Checker::match_facets() {
   facets_.resize(facets);
   // Each side of a cell must be one side, and one alone, of the cell beyond: matched in both
   // directions, no side is left over or taken twice.
-  const std::size_t unmatched = first_of(cell_count(), [&](std::size_t c) {
+  const std::size_t unmatched = first_index(cell_count(), [&](std::size_t c) {
     for (int k = 0; k < 4; ++k) {
       const std::int32_t other = neighbour(c, k);
       if (names(c, k)) {
@@ -319,7 +305,7 @@ std::string Checker::quantise() {
   capacities_.assign(facets_.size(), 0);
   if (facets_.empty()) return {};
   std::vector<double> areas(facets_.size());
-  const std::size_t endless = first_of(facets_.size(), [&](std::size_t f) {
+  const std::size_t endless = first_index(facets_.size(), [&](std::size_t f) {
     const auto [i, j, k] = corners_of(facets_[f].cell, facets_[f].corner);
     const Point3& a = complex_.points[i];
     const Point3 normal = cross(complex_.points[j] - a, complex_.points[k] - a);
@@ -349,7 +335,7 @@ std::string Checker::quantise() {
   }
   const Wide numerator = claim_.lambda.numerator;
   const Wide denominator = claim_.lambda.denominator;
-  const std::size_t beyond_area = first_of(facets_.size(), [&](std::size_t f) {
+  const std::size_t beyond_area = first_index(facets_.size(), [&](std::size_t f) {
     if (claim_.supported == nullptr) {
       const auto [cell, corner] = facets_[f];
       const bool differ = claim_.initial[cell] != initial(neighbour(cell, corner));
@@ -376,7 +362,7 @@ Finding Checker::check_capacities() {
     return flow < 0 ? -flow : flow;
   };
   const std::size_t over =
-      first_of(facets_.size(), [&](std::size_t f) { return magnitude(f) > capacities_[f]; });
+      first_index(facets_.size(), [&](std::size_t f) { return magnitude(f) > capacities_[f]; });
   if (over < facets_.size()) {
     const auto [cell, corner] = facets_[over];
     return failed("facet " + std::to_string(over) + " between cell " + std::to_string(cell) +

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "cellocut/surface/live_faces.h"
 #include "cellocut/validity/buckets.h"
@@ -51,17 +52,22 @@ class Movement {
     LiveFaces live(result_.points, triangles_);
     observer_.check();
     Pairs bad = hide_degenerate(moved, live);
-    const Buckets corners_at = corners_by_point(triangles_, from_.size());
+    std::optional<Buckets> corners_at;
     // Where most of the mesh moves, one search for all pairs is the quicker way.
-    const bool most = moved.size() > triangles_.size() / 4;
-    join(bad, most ? intersecting(live, corners_at) : intersecting_among(moved, live));
+    if (moved.size() > triangles_.size() / 4) {
+      corners_at = corners_by_point(triangles_, from_.size());
+      join(bad, intersecting(live, *corners_at));
+    } else {
+      join(bad, intersecting_among(moved, live));
+    }
     if (bad.empty()) return std::move(result_);
+    if (!corners_at) corners_at = corners_by_point(triangles_, from_.size());
     result_.bad_faces_at_first = count_faces(bad);
 
     while (!bad.empty()) {
       observer_.check();
       ++result_.rounds;
-      const Indices changed = faces_at(step_back(bad, corners_at), corners_at);
+      const Indices changed = faces_at(step_back(bad, *corners_at), *corners_at);
       for (const std::uint32_t face : changed) live.change(face, triangles_[face]);
       bad = hide_degenerate(changed, live);
       // (Pairs of faces that did not change were not bad before: some vertex of every bad pair

@@ -1,8 +1,6 @@
 #include "cellocut/validity/surface_report.h"
 
-#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
-#include <tbb/parallel_reduce.h>
 
 #include <algorithm>
 #include <atomic>
@@ -10,7 +8,7 @@
 #include <optional>
 #include <string>
 
-#include "cellocut/validity/embedded_stars.h"
+#include "cellocut/base/first_index.h"
 #include "cellocut/validity/incidence.h"
 #include "cellocut/validity/intersections.h"
 #include "cellocut/validity/position_merge.h"
@@ -27,20 +25,11 @@ void check_indices(const TriangleSoup& mesh) {
   if (mesh.triangles.size() > UINT32_MAX / 3 || mesh.points.size() > UINT32_MAX) {
     throw LimitError("the surface check is limited to 1431655765 faces");
   }
-  const auto names_too_high = [&mesh](std::size_t f) {
+  const std::size_t faces = mesh.triangles.size();
+  const std::size_t bad = first_index(faces, [&mesh](std::size_t f) {
     const Triangle& t = mesh.triangles[f];
     return std::max({t[0], t[1], t[2]}) >= mesh.points.size();
-  };
-  const std::size_t faces = mesh.triangles.size();
-  const std::size_t bad = tbb::parallel_reduce(
-      tbb::blocked_range<std::size_t>(0, faces), faces,
-      [&](const auto& range, std::size_t first) {
-        for (std::size_t f = range.begin(); f < std::min(first, range.end()); ++f) {
-          if (names_too_high(f)) return f;
-        }
-        return first;
-      },
-      [](std::size_t a, std::size_t b) { return std::min(a, b); });
+  });
   if (bad == faces) return;
   const Triangle& t = mesh.triangles[bad];
   const auto named = std::find_if(t.begin(), t.end(),

@@ -1,6 +1,11 @@
 #include "cellocut/path/fill_path.h"
 
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_invoke.h>
+
 #include <algorithm>
+#include <atomic>
+#include <iterator>
 #include <numeric>
 #include <stdexcept>
 
@@ -30,66 +35,84 @@ class PathSearch {
  private:
   WideCut solve(const Piece& piece, const Lambda& lambda);
   // Finds what changes within the open range, in each connected part on its own: parts that no edge
-  // joins have paths that know nothing of each other.
-  void divide(Piece piece);
-  void divide_connected(const Piece& piece);
-  void add_change(const Piece& piece, const Lambda& lambda, const InterfaceAreas& before,
-                  const InterfaceAreas& after, WideCut cut);
+  // joins have paths that know nothing of each other. So have the two halves of a range; whatever
+  // is independent is done in parallel, and the changes come in the order of the recursion.
+  std::vector<Change> divide(Piece piece);
+  std::vector<Change> divide_connected(const Piece& piece);
   // Puts the changes in order: those at one lambda are one breakpoint.
   void find_breakpoints(InterfaceAreas areas);
 
-  CutSolver& solver_;
+  CutSolver& solver_;  // keeps nothing from one problem to the next
   Observer& observer_;
   FillPath path_;
   std::vector<Change> changes_;
+  std::atomic<int> solves_ = 0;
+  std::atomic<int> digits_ = 0;
+  std::atomic<std::int64_t> solved_nodes_ = 0;
 };
 
-WideCut PathSearch::solve(const Piece& piece, const Lambda& lambda) {
-  WideCut cut = solve_wide(at_lambda(piece.problem, lambda), solver_, observer_);
-  ++path_.solves;
-  path_.digits += cut.digits;
-  path_.solved_nodes += static_cast<std::int64_t>(piece.problem.node_count());
-  return cut;
+void append(std::vector<Change>& changes, std::vector<Change>&& more) {
+  changes.insert(changes.end(), std::make_move_iterator(more.begin()),
+                 std::make_move_iterator(more.end()));
 }
 
-void PathSearch::add_change(const Piece& piece, const Lambda& lambda, const InterfaceAreas& before,
-                            const InterfaceAreas& after, WideCut cut) {
+Change change_of(const Piece& piece, const Lambda& lambda, const InterfaceAreas& before,
+                 const InterfaceAreas& after, WideCut cut) {
   Change change{lambda, before, after, {}, piece.edge, std::move(cut.edge_flow)};
   for (std::size_t i = 0; i < piece.node.size(); ++i) {
     if (cut.largest_source_side[i] != 0) change.node.push_back(piece.node[i]);
   }
-  changes_.push_back(std::move(change));
+  return change;
 }
 
-void PathSearch::divide_connected(const Piece& piece) {
+WideCut PathSearch::solve(const Piece& piece, const Lambda& lambda) {
+  WideCut cut = solve_wide(at_lambda(piece.problem, lambda), solver_, observer_);
+  ++solves_;
+  digits_ += cut.digits;
+  solved_nodes_ += static_cast<std::int64_t>(piece.problem.node_count());
+  return cut;
+}
+
+std::vector<Change> PathSearch::divide_connected(const Piece& piece) {
   const ParametricProblem& problem = piece.problem;
   const InterfaceAreas before = areas_of(problem, piece.before);
   const InterfaceAreas after = areas_of(problem, piece.after);
-  if (before == after) return;
+  if (before == after) return {};
   const Lambda lambda = crossing(before, after);
   if (problem.node_count() == 1) {
     // Nothing to solve: at the crossing both sides cost the same.
-    changes_.push_back({lambda, before, after, piece.node, {}, {}});
-    return;
+    return {{lambda, before, after, piece.node, {}, {}}};
   }
   WideCut cut = solve(piece, lambda);
   if (cut.value == cost_at(before, lambda)) {
-    add_change(piece, lambda, before, after, std::move(cut));
-    return;
+    return {change_of(piece, lambda, before, after, std::move(cut))};
   }
   const CutLabels none(problem.node_count(), 0);
   const CutLabels all(problem.node_count(), 1);
   const CutLabels& smallest = cut.smallest_source_side;
   const CutLabels& largest = cut.largest_source_side;
-  divide(contract(piece, smallest, all, piece.before, largest));
-  divide(contract(piece, none, largest, smallest, piece.after));
+  std::vector<Change> changes;
+  std::vector<Change> later;
+  tbb::parallel_invoke(
+      [&] { changes = divide(contract(piece, smallest, all, piece.before, largest)); },
+      [&] { later = divide(contract(piece, none, largest, smallest, piece.after)); });
+  append(changes, std::move(later));
   const InterfaceAreas most = areas_of(problem, largest);
   const InterfaceAreas least = areas_of(problem, smallest);
-  if (!(most == least)) add_change(piece, lambda, most, least, std::move(cut));
+  if (!(most == least)) {
+    changes.push_back(change_of(piece, lambda, most, least, std::move(cut)));
+  }
+  return changes;
 }
 
-void PathSearch::divide(Piece piece) {
-  for (const Piece& part : connected_parts(std::move(piece))) divide_connected(part);
+std::vector<Change> PathSearch::divide(Piece piece) {
+  const std::vector<Piece> parts = connected_parts(std::move(piece));
+  std::vector<std::vector<Change>> of_part(parts.size());
+  tbb::parallel_for(std::size_t{0}, parts.size(),
+                    [&](std::size_t i) { of_part[i] = divide_connected(parts[i]); });
+  std::vector<Change> changes;
+  for (std::vector<Change>& some : of_part) append(changes, std::move(some));
+  return changes;
 }
 
 void PathSearch::find_breakpoints(InterfaceAreas areas) {
@@ -122,10 +145,14 @@ FillPath PathSearch::run(const ParametricProblem& problem, const Lambda& first,
               {}};
   std::iota(whole.node.begin(), whole.node.end(), 0U);
   std::iota(whole.edge.begin(), whole.edge.end(), 0U);
-  const WideCut begin = solve(whole, first);
-  const WideCut end = solve(whole, last);
-  divide(contract(whole, end.smallest_source_side, begin.largest_source_side,
-                  begin.smallest_source_side, end.largest_source_side));
+  WideCut begin;
+  WideCut end;
+  tbb::parallel_invoke([&] { begin = solve(whole, first); }, [&] { end = solve(whole, last); });
+  changes_ = divide(contract(whole, end.smallest_source_side, begin.largest_source_side,
+                             begin.smallest_source_side, end.largest_source_side));
+  path_.solves = solves_;
+  path_.digits = digits_;
+  path_.solved_nodes = solved_nodes_;
   path_.level.assign(problem.node_count(), 0);
   find_breakpoints(areas_of(problem, begin.smallest_source_side));
   if (!(path_.areas.back() == areas_of(problem, end.largest_source_side))) {

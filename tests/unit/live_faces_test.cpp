@@ -28,6 +28,7 @@ TEST(LiveFaces, FindsWhatALookAtAllFacesFinds) {
   LiveFaces live(points, faces);
   std::set<std::uint32_t> left;
   for (std::uint32_t f = 0; f < faces.size(); ++f) left.insert(f);
+  std::set<std::uint32_t> hidden;
 
   // Beyond the point where the tree is built anew.
   while (left.size() > 500) {
@@ -35,6 +36,10 @@ TEST(LiveFaces, FindsWhatALookAtAllFacesFinds) {
     if (random() % 3 == 0) {
       faces[*some] = {corner(), corner(), corner()};
       live.change(*some, faces[*some]);
+      hidden.erase(*some);
+    } else if (random() % 10 == 0) {
+      live.hide(*some);
+      hidden.insert(*some);
     } else {
       live.remove(*some);
       left.erase(some);
@@ -43,6 +48,7 @@ TEST(LiveFaces, FindsWhatALookAtAllFacesFinds) {
     const FloatBox box = live.box_of({corner(), corner(), corner()});
     std::set<std::uint32_t> expected;
     for (const std::uint32_t f : left) {
+      if (hidden.count(f) != 0) continue;
       if (overlap(live.box_of(faces[f]), box)) expected.insert(f);
     }
     std::set<std::uint32_t> found;

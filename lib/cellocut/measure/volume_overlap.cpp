@@ -76,7 +76,7 @@ struct InsideTest::Faces {
         box(checked_box(mesh)),
         frame(box),
         odd_edges(count_odd_edges(merged_triangles())),
-        tree(all_ids(), float_boxes()) {}
+        tree(all_ids(), [this](std::uint32_t f) { return float_box_of(f); }) {}
 
   [[nodiscard]] std::vector<Triangle> merged_triangles() const {
     const std::vector<std::uint32_t> first = merge_equal_positions(points);
@@ -91,13 +91,9 @@ struct InsideTest::Faces {
     std::iota(ids.begin(), ids.end(), 0U);
     return ids;
   }
-  [[nodiscard]] std::vector<FloatBox> float_boxes() const {
-    std::vector<FloatBox> boxes(triangles.size());
-    tbb::parallel_for(std::size_t{0}, triangles.size(), [&](std::size_t f) {
-      const Triangle& t = triangles[f];
-      boxes[f] = float_box({frame(points[t[0]]), frame(points[t[1]]), frame(points[t[2]])});
-    });
-    return boxes;
+  [[nodiscard]] FloatBox float_box_of(std::uint32_t face) const {
+    const Triangle& t = triangles[face];
+    return float_box({frame(points[t[0]]), frame(points[t[1]]), frame(points[t[2]])});
   }
 };
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <span>
 
 namespace cellocut {
 
@@ -12,19 +13,21 @@ namespace {
 constexpr std::uint32_t kGone = 0xFFFFFFFFU;
 constexpr std::size_t kSmall = 1024;  // faces; a tree of fewer is not worth building anew
 
+std::vector<std::uint32_t> indices_below(std::size_t count) {
+  std::vector<std::uint32_t> indices(count);
+  std::iota(indices.begin(), indices.end(), 0U);
+  return indices;
+}
+
 }  // namespace
 
 LiveFaces::LiveFaces(const std::vector<Point3>& points, const std::vector<Triangle>& faces)
     : points_(points),
       frame_(bounding_box(points, faces)),
       count_(faces.size()),
-      boxes_(faces.size()),
+      tree_(indices_below(faces.size()), [&](std::uint32_t f) { return box_of(faces[f]); }),
       place_(faces.size()) {
-  tbb::parallel_for(std::size_t{0}, faces.size(),
-                    [&](std::size_t f) { boxes_[f] = box_of(faces[f]); });
-  std::vector<std::uint32_t> ids(faces.size());
-  std::iota(ids.begin(), ids.end(), 0U);
-  build(ids);
+  note_places();
 }
 
 FloatBox LiveFaces::box_of(const Triangle& corners) const {
@@ -32,36 +35,33 @@ FloatBox LiveFaces::box_of(const Triangle& corners) const {
       {frame_(points_[corners[0]]), frame_(points_[corners[1]]), frame_(points_[corners[2]])});
 }
 
-void LiveFaces::build(const std::vector<std::uint32_t>& ids) {
-  tree_.emplace(ids, boxes_);
+void LiveFaces::note_places() {
+  const std::span<const std::uint32_t> ids = tree_.ids();
   tbb::parallel_for(std::size_t{0}, ids.size(), [&](std::size_t place) {
-    place_[tree_->ids()[place]] = static_cast<std::uint32_t>(place);
+    place_[ids[place]] = static_cast<std::uint32_t>(place);
   });
 }
 
 void LiveFaces::change(std::uint32_t face, const Triangle& corners) {
-  boxes_[face] = box_of(corners);
-  tree_->replace(place_[face], boxes_[face]);
+  tree_.replace(place_[face], box_of(corners));
 }
 
-void LiveFaces::hide(std::uint32_t face) {
-  boxes_[face] = FloatBox::none();
-  tree_->replace(place_[face], boxes_[face]);
-}
+void LiveFaces::hide(std::uint32_t face) { tree_.replace(place_[face], FloatBox::none()); }
 
 void LiveFaces::remove(std::uint32_t face) {
-  tree_->replace(place_[face], FloatBox::none());
+  hide(face);
   place_[face] = kGone;
   --count_;
-  if (count_ < kSmall || 2 * count_ > tree_->ids().size()) return;
+  if (count_ < kSmall || 2 * count_ > tree_.ids().size()) return;
   std::vector<std::uint32_t> left;
   left.reserve(count_);
-  for (const std::uint32_t id : tree_->ids()) {
+  for (const std::uint32_t id : tree_.ids()) {
     if (place_[id] != kGone) left.push_back(id);
   }
   // In the order of faces: the tree then does not depend on the one before.
   std::sort(left.begin(), left.end());
-  build(left);
+  tree_ = BoxTree(left, [this](std::uint32_t id) { return box(id); });
+  note_places();
 }
 
 }  // namespace cellocut

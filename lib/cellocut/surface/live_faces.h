@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <vector>
 
 #include "cellocut/mesh/triangle_soup.h"
@@ -32,27 +31,26 @@ class LiveFaces {
   [[nodiscard]] FloatBox box_of(const Triangle& corners) const;
 
   // The box of a live face, in the same coordinates.
-  [[nodiscard]] const FloatBox& box(std::uint32_t face) const { return boxes_[face]; }
+  [[nodiscard]] FloatBox box(std::uint32_t face) const { return tree_.box(place_[face]); }
 
   // The live faces in the tree's coordinates, and what was hidden or removed nowhere.
-  [[nodiscard]] const BoxTree& tree() const { return *tree_; }
+  [[nodiscard]] const BoxTree& tree() const { return tree_; }
 
   // Calls visit(face) for each live face whose box overlaps the given one, in an order that depends
   // on the history of calls alone. O(log n + found) where faces do not crowd.
   template <class Visit>
   void find(const FloatBox& box, const Visit& visit) const {
-    tree_->visit_boxes(box, visit);
+    tree_.visit_boxes(box, visit);
   }
 
  private:
-  void build(const std::vector<std::uint32_t>& ids);
+  void note_places();
 
   const std::vector<Point3>& points_;
   FloatFrame frame_;
   std::size_t count_ = 0;
-  std::vector<FloatBox> boxes_;       // by face
+  BoxTree tree_;
   std::vector<std::uint32_t> place_;  // in the tree; kGone for those that are no more
-  std::optional<BoxTree> tree_;
 };
 
 }  // namespace cellocut

@@ -3,9 +3,6 @@
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_sort.h>
 
-#include <cmath>
-#include <utility>
-
 namespace cellocut {
 
 namespace {
@@ -27,50 +24,50 @@ std::uint64_t spread(std::uint64_t x) {
 
 }  // namespace
 
-BoxTree::BoxTree(const std::vector<std::uint32_t>& ids, const std::vector<FloatBox>& boxes)
-    : ids_(ids.size()) {
-  FloatBox all = FloatBox::none();
-  for (const std::uint32_t id : ids) all.include(boxes[id]);
-  const float cells = std::ldexp(1.0F, 20);  // twice the centre has 21 bits
-  const float edge = all.longest_edge();
-  const float scale = edge > 0 ? cells / edge : 0;
+template <class BoxAt>
+BoxTree::Level BoxTree::level_above(std::size_t below, const BoxAt& box_at) {
+  Level level((below + kSize - 1) / kSize);
+  tbb::parallel_for(std::size_t{0}, level.size, [&](std::size_t node) {
+    for (std::size_t i = 0; i < kSize; ++i) {
+      const std::size_t place = kSize * node + i;
+      level[node].set(i, place < below ? box_at(place) : FloatBox::none());
+    }
+  });
+  return level;
+}
 
-  std::vector<Place> places(ids.size());
-  tbb::parallel_for(std::size_t{0}, ids.size(), [&](std::size_t i) {
-    const FloatBox& box = boxes[ids[i]];
+BoxTree::BoxTree(const std::vector<std::uint32_t>& ids,
+                 const std::function<FloatBox(std::uint32_t)>& box_of)
+    : ids_(ids.size()) {
+  const std::size_t count = ids.size();
+  const auto places = std::make_unique_for_overwrite<Place[]>(count);
+  tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
+    const FloatBox box = box_of(ids[i]);
     std::uint64_t code = 0;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      const float twice = (box.low[axis] - all.low[axis]) + (box.high[axis] - all.low[axis]);
-      code |= spread(static_cast<std::uint64_t>(std::fmin(twice * scale, 0x1FFFFF))) << axis;
+      const float twice = box.low[axis] + box.high[axis];  // the centre, from -2 to 2
+      // (In this order, what is nowhere, as NaN, counts as 0.)
+      const float cells = std::min(std::max(0.0F, (twice + 2) * 0x1p19F), 0x1FFFFFp0F);
+      code |= spread(static_cast<std::uint64_t>(cells)) << axis;
     }
     places[i] = {code, ids[i]};
   });
-  tbb::parallel_sort(places.begin(), places.end());
+  tbb::parallel_sort(places.get(), places.get() + count);
 
-  levels_.emplace_back((ids.size() + kSize - 1) / kSize);
-  tbb::parallel_for(std::size_t{0}, levels_[0].size(), [&](std::size_t leaf) {
-    const std::size_t begin = kSize * leaf;
-    for (std::size_t i = begin; i < std::min(begin + kSize, ids.size()); ++i) {
-      ids_[i] = places[i].id;
-      levels_[0][leaf].set(i - begin, boxes[ids_[i]]);
-    }
-  });
-  while (levels_.back().size() > 1) {
-    const std::vector<EightBoxes>& below = levels_.back();
-    std::vector<EightBoxes> level((below.size() + kSize - 1) / kSize);
-    tbb::parallel_for(std::size_t{0}, level.size(), [&](std::size_t node) {
-      const std::size_t begin = kSize * node;
-      for (std::size_t i = begin; i < std::min(begin + kSize, below.size()); ++i) {
-        level[node].set(i - begin, below[i].around());
-      }
-    });
-    levels_.push_back(std::move(level));
+  levels_.push_back(level_above(count, [&](std::size_t place) {
+    ids_[place] = places[place].id;
+    return box_of(places[place].id);
+  }));
+  while (levels_.back().size > 1) {
+    const Level& below = levels_.back();
+    levels_.push_back(
+        level_above(below.size, [&below](std::size_t node) { return below[node].around(); }));
   }
 }
 
 void BoxTree::replace(std::size_t place, const FloatBox& box) {
   FloatBox bounds = box;
-  for (std::vector<EightBoxes>& level : levels_) {
+  for (Level& level : levels_) {
     EightBoxes& node = level[place / kSize];
     node.set(place % kSize, bounds);
     bounds = node.around();

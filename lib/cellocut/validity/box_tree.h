@@ -13,7 +13,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <functional>
 #include <limits>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -64,9 +66,6 @@ class EightBoxes {
  public:
   static constexpr std::size_t kSize = 8;
 
-  EightBoxes() {
-    for (std::size_t i = 0; i < kSize; ++i) set(i, FloatBox::none());
-  }
   void set(std::size_t i, const FloatBox& box) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       low_[i / 4][axis][i % 4] = box.low[axis];
@@ -115,10 +114,13 @@ class EightBoxes {
 
 class BoxTree {
  public:
-  // The boxes `boxes[id]` of the given ids. O(n log n), parallel. Precondition: ids is not empty.
-  BoxTree(const std::vector<std::uint32_t>& ids, const std::vector<FloatBox>& boxes);
+  // The boxes of the given ids, in the coordinates of a FloatFrame (float_frame.h) around them; so
+  // many are they that each is asked for twice instead of kept. O(n log n), parallel.
+  // Preconditions: ids is not empty; box_of may be called at once from several threads.
+  BoxTree(const std::vector<std::uint32_t>& ids,
+          const std::function<FloatBox(std::uint32_t)>& box_of);
 
-  [[nodiscard]] std::size_t leaf_count() const { return levels_[0].size(); }
+  [[nodiscard]] std::size_t leaf_count() const { return levels_[0].size; }
 
   [[nodiscard]] std::span<const std::uint32_t> ids_of_leaf(std::size_t leaf) const {
     const std::size_t begin = kSize * leaf;
@@ -127,6 +129,11 @@ class BoxTree {
 
   // All ids in the order of the leaves: `ids()[place]`.
   [[nodiscard]] std::span<const std::uint32_t> ids() const { return ids_; }
+
+  // The box at a place of ids().
+  [[nodiscard]] FloatBox box(std::size_t place) const {
+    return levels_[0][place / kSize][place % kSize];
+  }
 
   // Gives the box at a place of ids() another extent (FloatBox::none(): nothing finds it any more)
   // and bounds the nodes above anew. The tree keeps its order, so it gets worse as boxes move away.
@@ -140,11 +147,16 @@ class BoxTree {
   void visit_pairs_of_leaf(std::size_t leaf, const Visit& visit) const {
     const EightBoxes& own = levels_[0][leaf];
     const std::size_t count = ids_of_leaf(leaf).size();
+    std::array<FloatBox, kSize> boxes;
+    FloatBox box = FloatBox::none();
+    for (std::size_t i = 0; i < kSize; ++i) {
+      boxes[i] = own[i];
+      box.include(boxes[i]);
+    }
     for (std::size_t i = 0; i < count; ++i) {
-      own.overlapping(own[i], i + 1, [&](std::size_t j) { visit(i, ids_[kSize * leaf + j]); });
+      own.overlapping(boxes[i], i + 1, [&](std::size_t j) { visit(i, ids_[kSize * leaf + j]); });
     }
     // Later leaves lie below the right siblings of the nodes on the way up.
-    const FloatBox box = own.around();
     std::size_t node = leaf;
     for (std::size_t level = 1; level < levels_.size(); ++level, node /= kSize) {
       const std::size_t parent = node / kSize;
@@ -153,7 +165,7 @@ class BoxTree {
         descend(level - 1, sibling, box, &always, [&](std::size_t other) {
           const EightBoxes& others = levels_[0][other];
           own.overlapping(levels_[1][other / kSize][other % kSize], 0, [&](std::size_t i) {
-            others.overlapping(own[i], 0,
+            others.overlapping(boxes[i], 0,
                                [&](std::size_t j) { visit(i, ids_[kSize * other + j]); });
           });
         });
@@ -197,10 +209,25 @@ class BoxTree {
     });
   }
 
+  // Nodes whose memory is first written by the threads that fill it.
+  struct Level {
+    std::size_t size;
+    std::unique_ptr<EightBoxes[]> nodes;
+
+    explicit Level(std::size_t count)
+        : size(count), nodes(std::make_unique_for_overwrite<EightBoxes[]>(count)) {}
+    const EightBoxes& operator[](std::size_t i) const { return nodes[i]; }
+    EightBoxes& operator[](std::size_t i) { return nodes[i]; }
+  };
+
+  // The level above `below` boxes, of which box_at(place) gives each.
+  template <class BoxAt>
+  static Level level_above(std::size_t below, const BoxAt& box_at);
+
   std::vector<std::uint32_t> ids_;  // in the order of the leaves
   // Child c of node i on level k: on level 0 the box at place 8 i + c, above it node 8 i + c of
   // level k - 1. The last level is one node.
-  std::vector<std::vector<EightBoxes>> levels_;
+  std::vector<Level> levels_;
 };
 
 }  // namespace cellocut

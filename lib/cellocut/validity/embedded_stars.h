@@ -30,9 +30,12 @@ class EmbeddedStars {
   // Whether two different faces share a vertex with such a star: they then meet in common corners
   // or a common edge alone.
   [[nodiscard]] bool settle(const Triangle& s, const Triangle& t) const {
-    return std::any_of(s.begin(), s.end(), [&](std::uint32_t v) {
-      return (v == t[0] || v == t[1] || v == t[2]) && embedded(v);
-    });
+    unsigned settled = 0;  // without a branch, as none could be foreseen
+    for (const std::uint32_t v : s) {
+      const auto is = [v](std::uint32_t corner) { return corner == v ? 1U : 0U; };
+      settled |= (is(t[0]) | is(t[1]) | is(t[2])) & embedded_[v];
+    }
+    return settled != 0;
   }
 
  private:

@@ -1,5 +1,6 @@
 #include "cellocut/validity/face_filter.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "cellocut/validity/certain_side.h"
@@ -15,16 +16,43 @@ Point3 roughly_unit(const Point3& v) {
 
 }  // namespace
 
-PreparedFace::PreparedFace(const std::vector<Point3>& points, const Triangle& face)
-    : corners_(face), point_{points[face[0]], points[face[1]], points[face[2]]} {
-  const Point3 u = point_[1] - point_[0];
-  const Point3 v = point_[2] - point_[0];
+CertainPlane::CertainPlane(const Point3& a, const Point3& b, const Point3& c) : corner_(a) {
+  const Point3 u = b - a;
+  const Point3 v = c - a;
   normal_ = cross(u, v);
   for (int axis = 0; axis < 3; ++axis) {
-    reach_[axis] = std::fmax(std::fabs(u[axis]), std::fabs(v[axis]));
+    reach_[axis] = std::max(std::fabs(u[axis]), std::fabs(v[axis]));
   }
-  centroid_ = (1.0 / 3) * ((point_[0] + point_[1]) + point_[2]);
 }
+
+// 1 above, -1 below, 0 where it is not certain.
+int CertainPlane::certain_side(const Point3& p) const {
+  const Point3 w = p - corner_;
+  const double height = dot(normal_, w);
+  // The determinant (u, v, w) has six products of three differences. Each difference is off by one
+  // rounding, each product by two more, and four sums follow: below 10 u times each product, where
+  // u is the unit roundoff, so below 60 u (reach x reach x reach) in all. Twice that is asked for.
+  double bound = 120 * kUnitRoundoff;
+  for (int axis = 0; axis < 3; ++axis) bound *= std::max(reach_[axis], std::fabs(w[axis]));
+  // Below this, products may have underflowed.
+  if (!(std::fabs(height) > bound) || !(bound > 1e-250)) return 0;
+  return height > 0 ? 1 : -1;
+}
+
+bool CertainPlane::certainly_beside(const std::array<Point3, 3>& points, int count) const {
+  const int side = certain_side(points[0]);
+  if (side == 0) return false;
+  for (int i = 1; i < count; ++i) {
+    if (certain_side(points[i]) != side) return false;
+  }
+  return true;
+}
+
+PreparedFace::PreparedFace(const std::vector<Point3>& points, const Triangle& face)
+    : corners_(face),
+      point_{points[face[0]], points[face[1]], points[face[2]]},
+      plane_(point_[0], point_[1], point_[2]),
+      centroid_((1.0 / 3) * ((point_[0] + point_[1]) + point_[2])) {}
 
 bool PreparedFace::certainly_apart(const std::vector<Point3>& points, const Triangle& t) const {
   // Corners of t that are not corners of this face, and corners of this face that are not of t.
@@ -39,8 +67,12 @@ bool PreparedFace::certainly_apart(const std::vector<Point3>& points, const Tria
   }
   if (count == 0) return false;
 
-  // A plane across the way from one to the other: most neighbours end here.
+  // First the plane of this face, and of two that have no corner in common of the other one: where
+  // the sides of a sheet bend, the outer face has the inner one behind it.
+  if (plane_.certainly_beside(others, count)) return true;
   if (count == 3) {
+    if (CertainPlane(others[0], others[1], others[2]).certainly_beside(point_, 3)) return true;
+    // A plane across the way from one to the other.
     const Point3 centroid = (1.0 / 3) * ((others[0] + others[1]) + others[2]);
     const Point3 way = centroid - centroid_;
     if (separated(centroid_ + 0.5 * way, way, -1, others, count)) return true;
@@ -52,15 +84,6 @@ bool PreparedFace::certainly_apart(const std::vector<Point3>& points, const Tria
     const Point3 there = roughly_unit(others[0] - corner) + roughly_unit(others[1] - corner);
     if (separated(corner, there - here, c, others, count)) return true;
   }
-  // The plane of this face.
-  int sides = 0;  // 1 for above, 2 for below
-  for (int i = 0; i < count; ++i) {
-    if (!beside_plane(others[i], sides)) {
-      sides = 3;
-      break;
-    }
-  }
-  if (sides == 1 || sides == 2) return true;
   // The common edge, seen along an axis.
   if (count == 1) return across_edge(shared == 6 ? 0 : (shared == 5 ? 1 : 2), others[0]);
   // In one plane, as many of a flat part are.
@@ -78,21 +101,6 @@ bool PreparedFace::separated(const Point3& through, const Point3& normal, int co
   for (int i = 0; i < count; ++i) {
     if (certain_side_of_plane(normal, through, others[i]) <= 0) return false;
   }
-  return true;
-}
-
-// Whether p certainly lies off the plane of this face; adds its side.
-bool PreparedFace::beside_plane(const Point3& p, int& sides) const {
-  const Point3 w = p - point_[0];
-  const double height = dot(normal_, w);
-  // The determinant (u, v, w) has six products of three differences. Each difference is off by one
-  // rounding, each product by two more, and four sums follow: below 10 u times each product, where
-  // u is the unit roundoff, so below 60 u (reach x reach x reach) in all. Twice that is asked for.
-  double bound = 120 * kUnitRoundoff;
-  for (int axis = 0; axis < 3; ++axis) bound *= std::fmax(reach_[axis], std::fabs(w[axis]));
-  // Below this, products may have underflowed.
-  if (!(std::fabs(height) > bound) || !(bound > 1e-250)) return false;
-  sides |= height > 0 ? 1 : 2;
   return true;
 }
 
@@ -118,7 +126,7 @@ bool PreparedFace::across_any_side(int corner, const std::array<Point3, 3>& othe
                                    int count) const {
   int axis = 0;
   for (int k = 1; k < 3; ++k) {
-    if (std::fabs(normal_[k]) > std::fabs(normal_[axis])) axis = k;
+    if (std::fabs(plane_.normal()[k]) > std::fabs(plane_.normal()[axis])) axis = k;
   }
   const int i = (axis + 1) % 3;
   const int j = (axis + 2) % 3;

@@ -6,6 +6,7 @@
 #include <tbb/parallel_sort.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <numeric>
 #include <span>
@@ -108,11 +109,12 @@ class Counter {
   Counter(const std::vector<Triangle>& triangles, const Buckets& corners, ConcurrentSets& sets)
       : triangles_(triangles), corners_(corners), sets_(sets) {}
 
-  // Counts vertex v and the edges to neighbours above it. Returns whether v is non-manifold.
+  // Counts vertex v and its edges to vertices above it. Returns whether v is non-manifold.
   bool count_vertex(std::uint32_t v, Tally& tally) {
     const std::span<const std::uint32_t> corners = corners_[v];
     if (corners.empty()) return false;
     ++tally.vertices;
+    if (count_closed_fan(v, corners, tally)) return false;
     tally.ends.clear();
     tally.set.resize(corners.size());
     std::iota(tally.set.begin(), tally.set.end(), 0U);
@@ -148,6 +150,42 @@ class Counter {
   }
 
  private:
+  // What most vertices are: three or more faces that form one closed fan and go around it one way.
+  // None of its edges then is a boundary, non-manifold or turned, and no two of its faces are the
+  // same. Counts nothing and returns false elsewhere.
+  bool count_closed_fan(std::uint32_t v, std::span<const std::uint32_t> corners, Tally& tally) {
+    constexpr std::size_t kMostFaces = 16;
+    const std::size_t count = corners.size();
+    if (count < 3 || count > kMostFaces) return false;
+    std::array<std::uint32_t, kMostFaces> from;
+    std::array<std::uint32_t, kMostFaces> to;
+    for (std::size_t i = 0; i < count; ++i) {
+      const Triangle& triangle = triangles_[corners[i] / 3];
+      const std::uint32_t k = corners[i] % 3;
+      from[i] = triangle[(k + 1) % 3];
+      to[i] = triangle[(k + 2) % 3];
+    }
+    std::array<std::uint8_t, kMostFaces> next;
+    for (std::size_t i = 0; i < count; ++i) {
+      std::size_t matches = 0;
+      for (std::size_t j = 0; j < count; ++j) {
+        if (from[j] != to[i]) continue;
+        next[i] = static_cast<std::uint8_t>(j);
+        ++matches;
+      }
+      if (matches != 1) return false;
+    }
+    std::size_t length = 1;
+    for (std::size_t i = next[0]; i != 0 && length <= count; i = next[i]) ++length;
+    if (length != count) return false;
+    for (std::size_t i = 0; i < count; ++i) {
+      if (to[i] < v) continue;
+      ++tally.edges;
+      sets_.unite(corners[i] / 3, corners[next[i]] / 3);
+    }
+    return true;
+  }
+
   void count_edge(std::uint32_t v, std::span<const std::uint32_t> corners,
                   std::span<const LinkEnd> run, Tally& tally) {
     const std::uint32_t neighbour = run.front().neighbour();

@@ -77,18 +77,19 @@ class PairList {
 
 // Faces in classes by extent, smallest first; the lowest class holds all up to four times the
 // median. (Which face is in which class changes the time, never the result.)
+template <class BoxOf>
 std::vector<std::vector<std::uint32_t>> size_classes(const std::vector<std::uint32_t>& faces,
-                                                     const std::vector<FloatBox>& boxes) {
+                                                     const BoxOf& box_of) {
   std::vector<float> sample;
   for (std::size_t i = 0; i < faces.size(); i += faces.size() / 4096 + 1) {
-    sample.push_back(boxes[faces[i]].longest_edge());
+    sample.push_back(box_of(faces[i]).longest_edge());
   }
   const auto middle = sample.begin() + static_cast<std::ptrdiff_t>(sample.size() / 2);
   std::nth_element(sample.begin(), middle, sample.end());
   const double unit = std::fmax(4.0 * static_cast<double>(*middle), 1e-30);
   std::vector<std::uint8_t> index(faces.size());
   tbb::parallel_for(std::size_t{0}, faces.size(), [&](std::size_t i) {
-    const double ratio = static_cast<double>(boxes[faces[i]].longest_edge()) / unit;
+    const double ratio = static_cast<double>(box_of(faces[i]).longest_edge()) / unit;
     index[i] = ratio <= 1 ? 0 : static_cast<std::uint8_t>(std::ilogb(ratio) / 4 + 1);
   });
   std::vector<std::vector<std::uint32_t>> classes(1);
@@ -115,22 +116,21 @@ class Search {
         observer_(observer) {}
 
   IntersectingPairs run() {
-    std::vector<FloatBox> boxes(triangles_.size());
-    tbb::parallel_for(std::size_t{0}, faces_.size(), [&](std::size_t i) {
-      const auto [a, b, c] = frame_corners(faces_[i]);
-      boxes[faces_[i]] = float_box({a, b, c});
-    });
+    const auto box_of = [this](std::uint32_t face) {
+      const auto [a, b, c] = frame_corners(face);
+      return float_box({a, b, c});
+    };
+    const auto classes = size_classes(faces_, box_of);
     observer_.check();
-    const auto classes = size_classes(faces_, boxes);
     std::vector<BoxTree> trees;
     for (const auto& members : classes) {
-      trees.emplace_back(members, boxes);
+      trees.emplace_back(members, box_of);
       observer_.check();
     }
     for (std::size_t k = 0; k < trees.size(); ++k) {
       search_within(trees[k], classes[k].size());
       for (std::size_t smaller = 0; smaller < k; ++smaller) {
-        search_between(classes[k], boxes, trees[smaller]);
+        search_between(classes[k], trees[smaller]);
       }
     }
     return collect();
@@ -153,8 +153,7 @@ class Search {
         });
   }
 
-  void search_between(const std::vector<std::uint32_t>& large, const std::vector<FloatBox>& boxes,
-                      const BoxTree& small) {
+  void search_between(const std::vector<std::uint32_t>& large, const BoxTree& small) {
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, large.size(), 1), [&](const auto& range) {
       observer_.check();
       PairList& found = found_.local();
@@ -163,7 +162,7 @@ class Search {
         const auto [a, b, c] = frame_corners(face);
         const FacePlane plane(a, b, c);
         small.visit_boxes(
-            boxes[face], [&](const FloatBox& box) { return plane.may_cut(box); },
+            float_box({a, b, c}), [&](const FloatBox& box) { return plane.may_cut(box); },
             [&](std::uint32_t other) {
               if (!faces_intersect(points_, triangles_[face], triangles_[other])) return;
               found.add(face, other, max_pairs_);

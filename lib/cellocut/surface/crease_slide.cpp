@@ -18,7 +18,7 @@ constexpr double kMostTurn = 0.7;  // cosine of how far the side may turn in a s
 
 }  // namespace
 
-CreaseSlide::CreaseSlide(const TriangleSoup& surface, const std::vector<PullTarget>& targets,
+CreaseSlide::CreaseSlide(const TriangleSoup& surface, std::span<const PullTarget> targets,
                          const NearestTriangle& input, double offset, double distance)
     : surface_(surface),
       targets_(targets),

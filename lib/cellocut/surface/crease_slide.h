@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "cellocut/measure/nearest_triangle.h"
@@ -12,8 +13,8 @@ namespace cellocut {
 
 // Where a supported vertex is pulled to: some way from its nearest point on the input.
 struct PullTarget {
-  Point3 nearest{};    // on the input
-  Point3 direction{};  // from there to the vertex, of length 1; 0 where it stays
+  Point3 nearest;    // on the input
+  Point3 direction;  // from there to the vertex, of length 1; 0 where it stays
 };
 
 // In a concave corner, groove or slot of the input the surface before the pull has a crease, at
@@ -26,7 +27,7 @@ class CreaseSlide {
   // `surface`: before the pull; targets: by vertex; `offset`: the distance of supported vertices
   // from the input now, about, and `distance` that which the pull leaves. All of them must outlive
   // this. O(n).
-  CreaseSlide(const TriangleSoup& surface, const std::vector<PullTarget>& targets,
+  CreaseSlide(const TriangleSoup& surface, std::span<const PullTarget> targets,
               const NearestTriangle& input, double offset, double distance);
 
   // Where the vertex slides from `to`, its place after the pull; `to` itself where it is not at a
@@ -46,7 +47,7 @@ class CreaseSlide {
                                                  double step) const;
 
   const TriangleSoup& surface_;
-  const std::vector<PullTarget>& targets_;
+  std::span<const PullTarget> targets_;
   const NearestTriangle& input_;
   double offset_;
   double distance_;

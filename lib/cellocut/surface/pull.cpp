@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <utility>
 
 #include "cellocut/surface/crease_slide.h"
 #include "cellocut/surface/retreat.h"
@@ -28,9 +30,11 @@ PullReport pull_to_input(TriangleSoup& surface, const std::vector<std::uint8_t>&
   report.distance = distance;
   report.vertices = static_cast<std::int64_t>(count);
 
-  std::vector<PullTarget> targets(count);
+  // (Memory that the threads touch first, each its part.)
+  const auto targets = std::make_unique_for_overwrite<PullTarget[]>(count);
   std::vector<double> offset(count, 0);
   tbb::parallel_for(std::size_t{0}, count, [&](std::size_t v) {
+    targets[v] = {};
     if (supported[v] == 0) return;
     const Point3& from = surface.points[v];
     NearestPoint nearest = input(from, 1.25 * expected);
@@ -40,8 +44,8 @@ PullReport pull_to_input(TriangleSoup& surface, const std::vector<std::uint8_t>&
     targets[v] = {nearest.point, (1 / nearest.distance) * (from - nearest.point)};
     offset[v] = distance;
   });
-  const CreaseSlide slide(surface, targets, input, expected, distance);
-  std::vector<Point3> to(count);
+  const CreaseSlide slide(surface, {targets.get(), count}, input, expected, distance);
+  const auto to = std::make_unique_for_overwrite<Point3[]>(count);
   std::vector<Point3> beyond(count);
   tbb::parallel_for(std::size_t{0}, count, [&](std::size_t v) {
     const PullTarget& target = targets[v];
@@ -50,17 +54,15 @@ PullReport pull_to_input(TriangleSoup& surface, const std::vector<std::uint8_t>&
     beyond[v] = slide(static_cast<std::uint32_t>(v), to[v]);
   });
   observer.check();
-  Retreat moved = move_vertices(surface.points, to, beyond, surface.triangles, observer);
-  surface.points = std::move(moved.points);
+  Retreat moved = move_vertices(surface.points, {to.get(), count}, std::move(beyond),
+                                surface.triangles, observer);
   report.bad_faces_at_first = moved.bad_faces_at_first;
   report.rounds = moved.rounds;
 
-  const auto shifted = [&](std::size_t v) {
-    return beyond[v] != to[v] && moved.fell_short[v] == 0;
-  };
+  const auto shifted = [&](std::size_t v) { return moved.is_beyond(v, to[v]); };
   tbb::parallel_for(std::size_t{0}, count, [&](std::size_t v) {
     const bool as_asked = moved.halvings[v] == 0 && !shifted(v);
-    if (supported[v] != 0 && !as_asked) offset[v] = input(surface.points[v]).distance;
+    if (supported[v] != 0 && !as_asked) offset[v] = input(moved.points[v]).distance;
   });
   std::size_t kept = 0;  // of `offset`, those of supported vertices
   for (std::size_t v = 0; v < count; ++v) {
@@ -70,6 +72,7 @@ PullReport pull_to_input(TriangleSoup& surface, const std::vector<std::uint8_t>&
     if (moved.halvings[v] > 0 && moved.halvings[v] < Retreat::kStayed) ++report.stopped_early;
     offset[kept++] = offset[v];
   }
+  surface.points = std::move(moved.points);
   report.supported = static_cast<std::int64_t>(kept);
   offset.resize(kept);
   report.offset = quantiles_of(std::move(offset));

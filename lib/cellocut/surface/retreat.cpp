@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "cellocut/surface/live_faces.h"
 #include "cellocut/validity/buckets.h"
@@ -37,11 +38,10 @@ void join(std::vector<T>& values, const std::vector<T>& more) {
 
 class Movement {
  public:
-  Movement(const std::vector<Point3>& from, const std::vector<Point3>& to,
-           const std::vector<Point3>& beyond, const std::vector<Triangle>& triangles,
-           Observer& observer)
-      : from_(from), to_(to), beyond_(beyond), triangles_(triangles), observer_(observer) {
-    result_.points = beyond;
+  Movement(const std::vector<Point3>& from, std::span<const Point3> to, std::vector<Point3> beyond,
+           const std::vector<Triangle>& triangles, Observer& observer)
+      : from_(from), to_(to), triangles_(triangles), observer_(observer) {
+    result_.points = std::move(beyond);
     result_.halvings.assign(from.size(), 0);
     result_.fell_short.assign(from.size(), 0);
   }
@@ -81,7 +81,7 @@ class Movement {
   [[nodiscard]] Indices moved_faces() const {
     std::vector<std::uint8_t> moves(triangles_.size());
     tbb::parallel_for(std::size_t{0}, triangles_.size(), [&](std::size_t f) {
-      const auto moved = [this](std::uint32_t v) { return from_[v] != beyond_[v]; };
+      const auto moved = [this](std::uint32_t v) { return from_[v] != result_.points[v]; };
       moves[f] = std::any_of(triangles_[f].begin(), triangles_[f].end(), moved) ? 1 : 0;
     });
     Indices faces;
@@ -157,9 +157,7 @@ class Movement {
     return static_cast<std::int64_t>(faces.size());
   }
 
-  [[nodiscard]] bool is_beyond(std::uint32_t v) const {
-    return beyond_[v] != to_[v] && result_.fell_short[v] == 0;
-  }
+  [[nodiscard]] bool is_beyond(std::uint32_t v) const { return result_.is_beyond(v, to_[v]); }
 
   // Those vertices of a bad pair that are beyond come back to where they were to go at least; where
   // there are none, the way of all is halved. Returns the vertices that this moves. `corners_at`:
@@ -201,8 +199,8 @@ class Movement {
       for (const std::uint32_t corner : corners_at[v]) {
         for (const std::uint32_t neighbour : triangles_[corner / 3]) {
           if (result_.halvings[neighbour] == Retreat::kStayed) continue;
+          if (is_beyond(neighbour)) result_.fell_short[neighbour] = 1;
           result_.halvings[neighbour] = Retreat::kStayed;
-          if (beyond_[neighbour] != to_[neighbour]) result_.fell_short[neighbour] = 1;
           result_.points[neighbour] = from_[neighbour];
           changed.push_back(neighbour);
         }
@@ -221,8 +219,7 @@ class Movement {
   }
 
   const std::vector<Point3>& from_;
-  const std::vector<Point3>& to_;
-  const std::vector<Point3>& beyond_;
+  std::span<const Point3> to_;
   const std::vector<Triangle>& triangles_;
   Observer& observer_;
   Retreat result_;
@@ -230,10 +227,10 @@ class Movement {
 
 }  // namespace
 
-Retreat move_vertices(const std::vector<Point3>& from, const std::vector<Point3>& to,
-                      const std::vector<Point3>& beyond, const std::vector<Triangle>& triangles,
+Retreat move_vertices(const std::vector<Point3>& from, std::span<const Point3> to,
+                      std::vector<Point3> beyond, const std::vector<Triangle>& triangles,
                       Observer& observer) {
-  return Movement(from, to, beyond, triangles, observer).run();
+  return Movement(from, to, std::move(beyond), triangles, observer).run();
 }
 
 }  // namespace cellocut

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "cellocut/base/observer.h"
@@ -17,6 +18,11 @@ struct Retreat {
   std::vector<Point3> points;
   std::vector<std::uint8_t> halvings;  // per vertex: the displacement is 2^-halvings of that asked
   std::vector<std::uint8_t> fell_short;  // per vertex: 1 where it could not be `beyond`
+  // Whether vertex v is `beyond` the place `to` that it was to reach at least.
+  [[nodiscard]] bool is_beyond(std::size_t v, const Point3& to) const {
+    return fell_short[v] == 0 && halvings[v] == 0 && points[v] != to;
+  }
+
   // Faces that are degenerate or intersect another with all displacements in full.
   std::int64_t bad_faces_at_first = 0;
   int rounds = 0;
@@ -34,8 +40,8 @@ struct Retreat {
 //
 // Preconditions: the mesh is valid at `from`; the three have the same size, all finite. The same
 // for any number of threads. O(n log n + rounds * faces that were bad). Errors: Cancelled.
-Retreat move_vertices(const std::vector<Point3>& from, const std::vector<Point3>& to,
-                      const std::vector<Point3>& beyond, const std::vector<Triangle>& triangles,
+Retreat move_vertices(const std::vector<Point3>& from, std::span<const Point3> to,
+                      std::vector<Point3> beyond, const std::vector<Triangle>& triangles,
                       Observer& observer);
 
 }  // namespace cellocut

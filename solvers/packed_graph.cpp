@@ -156,6 +156,21 @@ PackedGraph::PackedGraph(const CutProblem& problem)
   }
 }
 
+void PackedGraph::send(const std::vector<std::int64_t>& edge_flow,
+                       std::vector<std::int64_t>& balance) {
+  for (std::size_t e = 0; e < edge_flow.size(); ++e) {
+    if (arc_of_edge[e] == kNoArc) continue;
+    const std::uint32_t along = arc_of_edge[e];
+    const std::uint32_t against = arcs[along].sister;
+    const std::int64_t amount =
+        std::clamp(edge_flow[e], -arcs[against].residual, arcs[along].residual);
+    balance[arcs[against].head] -= amount;
+    balance[arcs[along].head] += amount;
+    if (amount > 0) push(along, amount);
+    if (amount < 0) push(against, -amount);
+  }
+}
+
 std::int64_t PackedGraph::bytes() const {
   return static_cast<std::int64_t>(row.size() * sizeof(row[0]) + arcs.size() * sizeof(arcs[0]) +
                                    arc_of_edge.size() * sizeof(arc_of_edge[0]) +

@@ -58,6 +58,9 @@ struct PackedGraph {
     arc.sister_open = 1;
     sister.sister_open = arc.residual != 0;
   }
+  // Sends these net flows along the edges, as far as their capacities allow, and adds to `balance`
+  // what that brings each node.
+  void send(const std::vector<std::int64_t>& edge_flow, std::vector<std::int64_t>& balance);
   // Size of the arrays.
   [[nodiscard]] std::int64_t bytes() const;
 };

@@ -6,6 +6,10 @@
 // d(i) = d(j) + 1, and where it has none, it is relabelled to the least d(j) + 1 over its residual
 // arcs.
 //
+// A start (SolveOptions) is a pseudoflow: what its edges bring a node too much is excess from the
+// beginning, and what they take too much is a deficit, which takes up excess like a sink does. In
+// the end no residual path leads from an excess to a deficit, and that is all that phase two needs.
+//
 // Terminals are implicit. Every node has one signed balance:
 //   balance > 0   excess,
 //   balance < 0   minus what the node can still absorb; such a node is a sink, with label 0.
@@ -61,7 +65,8 @@ struct Node {
 
 class Preflow {
  public:
-  Preflow(PackedGraph& graph, const SolveContext& context);
+  Preflow(PackedGraph& graph, const std::vector<std::int64_t>& balance,
+          const SolveContext& context);
   // Moves as much excess as possible into nodes of negative balance.
   void run();
   [[nodiscard]] std::vector<std::int64_t> excess() const;
@@ -91,7 +96,8 @@ class Preflow {
   std::int64_t work_ = 0;  // since the last global relabelling
 };
 
-Preflow::Preflow(PackedGraph& graph, const SolveContext& context)
+Preflow::Preflow(PackedGraph& graph, const std::vector<std::int64_t>& balance,
+                 const SolveContext& context)
     : count_(graph.node_count()),
       nodes_(std::size_t{count_} + 1),
       queue_(count_),
@@ -99,7 +105,7 @@ Preflow::Preflow(PackedGraph& graph, const SolveContext& context)
       arcs_(graph.arcs.data()),
       context_(context) {
   for (std::uint32_t i = 0; i < count_; ++i) {
-    nodes_[i] = {graph.terminal[i], graph.row[i], graph.row[i], 0};
+    nodes_[i] = {balance[i], graph.row[i], graph.row[i], 0};
   }
   nodes_[count_] = {0, graph.row[count_], graph.row[count_], 0};
 }
@@ -214,9 +220,9 @@ void mirror(PackedGraph& graph) {
 }
 
 // Whether less can flow into the sink than out of the source, by the capacities of their arcs.
-bool less_at_sink(const PackedGraph& graph) {
+bool less_at_sink(const std::vector<std::int64_t>& balance) {
   std::int64_t more_at_source = 0;
-  for (const std::int64_t terminal : graph.terminal) more_at_source += terminal;
+  for (const std::int64_t amount : balance) more_at_source += amount;
   return more_at_source > 0;
 }
 
@@ -239,9 +245,14 @@ class PushRelabel final : public CutSolver {
   SolverOutput do_solve(const CutProblem& problem, SolveContext& context) override {
     context.check();
     PackedGraph graph(problem);
-    const bool mirrored = less_at_sink(graph);
-    if (mirrored) mirror(graph);
-    Preflow preflow(graph, context);
+    std::vector<std::int64_t> balance = graph.terminal;
+    if (context.start() != nullptr) graph.send(*context.start(), balance);
+    const bool mirrored = less_at_sink(balance);
+    if (mirrored) {
+      mirror(graph);
+      for (std::int64_t& amount : balance) amount = -amount;
+    }
+    Preflow preflow(graph, balance, context);
     context.built();
     if (graph.node_count() > 0) preflow.run();
     std::vector<std::int64_t> excess = preflow.excess();

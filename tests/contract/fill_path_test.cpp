@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <random>
 
@@ -96,6 +97,14 @@ TEST_P(WideCuts, AreThoseOfExhaustiveSearch) {
           }
         }
       }
+      std::vector<double> start(problem.edges.size());
+      std::generate(start.begin(), start.end(), [&] {
+        return std::ldexp(static_cast<double>(random() % 2001) - 1000, bits - 10);
+      });
+      const WideCut warm = solve_wide(problem, *solver, silent_observer(), start);
+      EXPECT_TRUE(warm.value == cut.value);
+      EXPECT_EQ(warm.smallest_source_side, cut.smallest_source_side);
+      EXPECT_EQ(warm.largest_source_side, cut.largest_source_side);
       ASSERT_TRUE(cut.value == least) << bits << " bits, trial " << trial;
       EXPECT_EQ(cut.smallest_source_side, smallest);
       EXPECT_EQ(cut.largest_source_side, largest);

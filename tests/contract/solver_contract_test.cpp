@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <limits>
+#include <random>
 #include <set>
 #include <tuple>
 
@@ -120,6 +122,37 @@ TEST_P(RandomProblems, AgreeWithTheWitness) {
   }
 }
 
+// Flows of all kinds: balanced or not, within the capacities or far beyond them, and one that is
+// maximal already.
+TEST_P(RandomProblems, HaveTheSameCutsFromAnyStart) {
+  constexpr std::uint64_t kSeeds = 10;
+  const auto& [name, shape] = GetParam();
+  const auto solver = solvers::make(name);
+  std::mt19937_64 random(9);
+  for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    const CutProblem problem = testing::random_problem(shape, seed);
+    if (!within_limit(*solver, problem)) continue;
+    const CutResult cold = solver->solve(problem);
+    std::vector<std::int64_t> start = cold.edge_flow;
+    for (int kind = 0; kind < 4; ++kind) {
+      const CutResult warm = solver->solve(problem, {.start = &start});
+      expect_cut(warm, {cold.value, cold.smallest_source_side, cold.largest_source_side});
+      expect_feasible(problem, warm);
+      for (std::size_t e = 0; e < start.size(); ++e) {
+        const CutEdge& edge = problem.edges[e];
+        const auto some = static_cast<std::int64_t>(random() >> 1U);
+        if (kind == 0) start[e] = cold.edge_flow[e] / 2;
+        if (kind == 1)
+          start[e] = some % (edge.capacity + edge.reverse_capacity + 1) - edge.reverse_capacity;
+        if (kind == 2)
+          start[e] = random() % 2 == 0 ? some : std::numeric_limits<std::int64_t>::min();
+      }
+    }
+    if (HasFailure()) break;
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Solvers, RandomProblems,
                          ::testing::Combine(::testing::ValuesIn(built_solvers()),
                                             ::testing::ValuesIn(testing::random_shapes())),
@@ -164,6 +197,12 @@ TEST_P(Solver, CanBeUsedAgain) {
   const CutResult again = solver_->solve(first);
   EXPECT_EQ(once.edge_flow, again.edge_flow);
   EXPECT_EQ(once.value, again.value);
+}
+
+TEST_P(Solver, RefusesAStartOfAnotherSize) {
+  const CutProblem problem = testing::random_problem(RandomShape::sparse, 1);
+  const std::vector<std::int64_t> start(problem.edges.size() + 1, 0);
+  EXPECT_THROW((void)solver_->solve(problem, {.start = &start}), UsageError);
 }
 
 TEST_P(Solver, TimesBothPhases) {

@@ -221,6 +221,9 @@ CutResult CutSolver::solve(const CutProblem& problem, const SolveOptions& option
   }
 
   options.relaxation.validate();
+  if (options.start != nullptr && options.start->size() != problem.edges.size()) {
+    throw UsageError("start: give one flow for each edge");
+  }
   CutResult result;
   SolveContext context(options);
   Stopwatch stopwatch;

@@ -63,6 +63,11 @@ struct SolveOptions {
   // Reduce the problem exactly before the search (reduction.h); what that removed is among the
   // counters, its time counts as building. A relaxation without crossover takes no notice.
   bool reduce = false;
+  // A net flow per edge to begin with, such as a maximum flow of a problem much like this one. It
+  // need not balance, and what exceeds a capacity is cut off. It changes the time and which of the
+  // maximum flows is returned, nothing else; solvers that have no use for it take no notice, nor
+  // does a reduced problem. May be null; must outlive the call.
+  const std::vector<std::int64_t>* start = nullptr;
 };
 
 struct CutResult {
@@ -112,7 +117,9 @@ struct SolverOutput {
 class SolveContext {
  public:
   explicit SolveContext(const SolveOptions& options)
-      : observer_(options.observer), relaxation_(options.relaxation) {}
+      : observer_(options.observer),
+        relaxation_(options.relaxation),
+        start_(options.reduce ? nullptr : options.start) {}
   // To be called once, when the solver's own arrays stand and the search begins.
   void built();
   // Throws Cancelled when the caller wants to stop. Cheap enough for every few thousand steps.
@@ -124,10 +131,13 @@ class SolveContext {
   [[nodiscard]] double seconds() const { return clock_.seconds(); }
   [[nodiscard]] Observer* observer() const { return observer_; }
   [[nodiscard]] const RelaxationOptions& relaxation() const { return relaxation_; }
+  // One flow per edge, or null.
+  [[nodiscard]] const std::vector<std::int64_t>* start() const { return start_; }
 
  private:
   Observer* observer_;
   RelaxationOptions relaxation_;
+  const std::vector<std::int64_t>* start_;
   Stopwatch clock_;
   double built_at_ = -1;
 };
@@ -137,8 +147,10 @@ class CutSolver {
   virtual ~CutSolver() = default;
   [[nodiscard]] virtual const SolverInfo& info() const = 0;
 
-  // Validates the problem, solves and times it, and recomputes what the solver claims.
-  // Errors: InputError as CutProblem::validate; UsageError as RelaxationOptions::validate;
+  // Validates the problem, solves and times it, and recomputes what the solver claims. Keeps
+  // nothing for the next problem, and several threads may call it at once.
+  // Errors: InputError as CutProblem::validate; UsageError as RelaxationOptions::validate, and for
+  // a start with another number of edges;
   // LimitError where the sum of capacities exceeds what this solver can represent; Cancelled.
   [[nodiscard]] CutResult solve(const CutProblem& problem, const SolveOptions& options = {});
 

@@ -38,7 +38,7 @@ class PathSearch {
   // joins have paths that know nothing of each other. So have the two halves of a range; whatever
   // is independent is done in parallel, and the changes come in the order of the recursion.
   std::vector<Change> divide(Piece piece);
-  std::vector<Change> divide_connected(const Piece& piece);
+  std::vector<Change> divide_connected(Piece piece);
   // Puts the changes in order: those at one lambda are one breakpoint.
   void find_breakpoints(InterfaceAreas areas);
 
@@ -66,14 +66,26 @@ Change change_of(const Piece& piece, const Lambda& lambda, const InterfaceAreas&
 }
 
 WideCut PathSearch::solve(const Piece& piece, const Lambda& lambda) {
-  WideCut cut = solve_wide(at_lambda(piece.problem, lambda), solver_, observer_);
+  // Edges between free cells carry p times their unsupported area at most, whatever the lambda: a
+  // flow at another one fits, but for what the terminals bring.
+  std::vector<double> start = piece.flow;
+  for (double& flow : start) flow *= static_cast<double>(lambda.p);
+  WideCut cut = solve_wide(at_lambda(piece.problem, lambda), solver_, observer_, start);
   ++solves_;
   digits_ += cut.digits;
   solved_nodes_ += static_cast<std::int64_t>(piece.problem.node_count());
   return cut;
 }
 
-std::vector<Change> PathSearch::divide_connected(const Piece& piece) {
+std::vector<double> flow_by_area(const WideCut& cut, const Lambda& lambda) {
+  std::vector<double> flow(cut.edge_flow.size());
+  std::transform(cut.edge_flow.begin(), cut.edge_flow.end(), flow.begin(), [&](Wide amount) {
+    return static_cast<double>(amount) / static_cast<double>(lambda.p);
+  });
+  return flow;
+}
+
+std::vector<Change> PathSearch::divide_connected(Piece piece) {
   const ParametricProblem& problem = piece.problem;
   const InterfaceAreas before = areas_of(problem, piece.before);
   const InterfaceAreas after = areas_of(problem, piece.after);
@@ -87,6 +99,7 @@ std::vector<Change> PathSearch::divide_connected(const Piece& piece) {
   if (cut.value == cost_at(before, lambda)) {
     return {change_of(piece, lambda, before, after, std::move(cut))};
   }
+  piece.flow = flow_by_area(cut, lambda);
   const CutLabels none(problem.node_count(), 0);
   const CutLabels all(problem.node_count(), 1);
   const CutLabels& smallest = cut.smallest_source_side;
@@ -106,10 +119,10 @@ std::vector<Change> PathSearch::divide_connected(const Piece& piece) {
 }
 
 std::vector<Change> PathSearch::divide(Piece piece) {
-  const std::vector<Piece> parts = connected_parts(std::move(piece));
+  std::vector<Piece> parts = connected_parts(std::move(piece));
   std::vector<std::vector<Change>> of_part(parts.size());
   tbb::parallel_for(std::size_t{0}, parts.size(),
-                    [&](std::size_t i) { of_part[i] = divide_connected(parts[i]); });
+                    [&](std::size_t i) { of_part[i] = divide_connected(std::move(parts[i])); });
   std::vector<Change> changes;
   for (std::vector<Change>& some : of_part) append(changes, std::move(some));
   return changes;
@@ -142,12 +155,14 @@ FillPath PathSearch::run(const ParametricProblem& problem, const Lambda& first,
               std::vector<std::uint32_t>(problem.node_count()),
               std::vector<std::uint32_t>(problem.edges.size()),
               {},
+              {},
               {}};
   std::iota(whole.node.begin(), whole.node.end(), 0U);
   std::iota(whole.edge.begin(), whole.edge.end(), 0U);
   WideCut begin;
   WideCut end;
   tbb::parallel_invoke([&] { begin = solve(whole, first); }, [&] { end = solve(whole, last); });
+  whole.flow = flow_by_area(end, last);
   changes_ = divide(contract(whole, end.smallest_source_side, begin.largest_source_side,
                              begin.smallest_source_side, end.largest_source_side));
   path_.solves = solves_;

@@ -36,6 +36,7 @@ Piece contract(const Piece& piece, const CutLabels& lower, const CutLabels& uppe
     if (a < kInside && b < kInside) {
       part.edges.push_back({a, b, edge.areas});
       result.edge.push_back(piece.edge[e]);
+      if (!piece.flow.empty()) result.flow.push_back(piece.flow[e]);
     } else if (a < kInside || b < kInside) {
       const std::uint32_t node = a < kInside ? a : b;
       const std::uint32_t other = a < kInside ? b : a;
@@ -89,6 +90,7 @@ std::vector<Piece> connected_parts(Piece piece) {
     Piece& part = result[parts.of_node[edge.from]];
     part.problem.edges.push_back({place[edge.from], place[edge.to], edge.areas});
     part.edge.push_back(piece.edge[e]);
+    if (!piece.flow.empty()) part.flow.push_back(piece.flow[e]);
   }
   return result;
 }

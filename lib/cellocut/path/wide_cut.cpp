@@ -1,6 +1,7 @@
 #include "cellocut/path/wide_cut.h"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "cellocut/base/errors.h"
@@ -24,8 +25,17 @@ Terminal terminal_at(Wide to_source, Wide to_sink, Wide out) {
 }
 
 // A maximum flow and both canonical cuts, as checked by CutSolver::solve.
-CutResult maximum_flow(CutSolver& solver, const CutProblem& problem, Observer& observer) {
-  CutResult cut = solver.solve(problem, SolveOptions{.observer = &observer});
+// `start`: about its flows times 2^shift, or empty.
+CutResult maximum_flow(CutSolver& solver, const CutProblem& problem, Observer& observer,
+                       std::span<const double> start, int shift) {
+  std::vector<std::int64_t> begin(start.size());
+  for (std::size_t e = 0; e < start.size(); ++e) {
+    // (No capacity is as large.)
+    begin[e] = static_cast<std::int64_t>(std::clamp(std::ldexp(start[e], -shift), -0x1p62, 0x1p62));
+  }
+  SolveOptions options{.observer = &observer};
+  if (!start.empty()) options.start = &begin;
+  CutResult cut = solver.solve(problem, options);
   if (cut.status != CutStatus::optimal || !cut.canonical) {
     throw CertificateError("solver '" + solver.info().name + "' returned no maximum flow: " +
                            (cut.message.empty() ? "it is not exact" : cut.message));
@@ -35,8 +45,9 @@ CutResult maximum_flow(CutSolver& solver, const CutProblem& problem, Observer& o
 
 class WideSearch {
  public:
-  WideSearch(const WideProblem& problem, CutSolver& solver, Observer& observer)
-      : problem_(problem), solver_(solver), observer_(observer) {
+  WideSearch(const WideProblem& problem, CutSolver& solver, Observer& observer,
+             std::span<const double> start)
+      : problem_(problem), solver_(solver), observer_(observer), start_(start) {
     result_.edge_flow.assign(problem.edges.size(), 0);
     terminals_.resize(problem.node_count());
   }
@@ -57,6 +68,7 @@ class WideSearch {
   const WideProblem& problem_;
   CutSolver& solver_;
   Observer& observer_;
+  std::span<const double> start_;  // of the first digit
   WideCut result_;
   std::vector<Terminal> terminals_;
 };
@@ -113,7 +125,8 @@ Wide WideSearch::add_digit(Wide bound, int shift) {
     scaled.edges.push_back({edge.from, edge.to, part(edge.capacity - result_.edge_flow[e]),
                             part(edge.capacity + result_.edge_flow[e])});
   }
-  const CutResult cut = maximum_flow(solver_, scaled, observer_);
+  const CutResult cut = maximum_flow(solver_, scaled, observer_, start_, shift);
+  start_ = {};
   ++result_.digits;
   // What the minimum cut has in the bits that were left out.
   const CutLabels& side = cut.smallest_source_side;
@@ -223,7 +236,8 @@ Wide sum_of(const WideProblem& problem) {
 
 // Where the solver takes the problem as it is, CutSolver::solve checks the flow and finds both
 // cuts.
-WideCut solve_narrow(const WideProblem& problem, CutSolver& solver, Observer& observer) {
+WideCut solve_narrow(const WideProblem& problem, CutSolver& solver, Observer& observer,
+                     std::span<const double> start) {
   const auto narrow = [](Wide capacity) { return static_cast<std::int64_t>(capacity); };
   CutProblem same;
   same.to_source.reserve(problem.node_count());
@@ -236,7 +250,7 @@ WideCut solve_narrow(const WideProblem& problem, CutSolver& solver, Observer& ob
   for (const WideProblem::Edge& edge : problem.edges) {
     same.edges.push_back({edge.from, edge.to, narrow(edge.capacity), narrow(edge.capacity)});
   }
-  CutResult cut = maximum_flow(solver, same, observer);
+  CutResult cut = maximum_flow(solver, same, observer, start, 0);
   return {problem.constant + cut.value,
           {cut.edge_flow.begin(), cut.edge_flow.end()},
           std::move(cut.smallest_source_side),
@@ -246,12 +260,13 @@ WideCut solve_narrow(const WideProblem& problem, CutSolver& solver, Observer& ob
 
 }  // namespace
 
-WideCut solve_wide(const WideProblem& problem, CutSolver& solver, Observer& observer) {
+WideCut solve_wide(const WideProblem& problem, CutSolver& solver, Observer& observer,
+                   std::span<const double> start) {
   observer.check();
   if (sum_of(problem) < Wide{solver.info().capacity_limit}) {
-    return solve_narrow(problem, solver, observer);
+    return solve_narrow(problem, solver, observer, start);
   }
-  return WideSearch(problem, solver, observer).run();
+  return WideSearch(problem, solver, observer, start).run();
 }
 
 }  // namespace cellocut

@@ -8,6 +8,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "cellocut/base/observer.h"
@@ -42,9 +43,11 @@ struct WideCut {
 };
 
 // Exact for every solver that is; the flow is checked, whatever the solver says of it. Costs a
-// solve for each digit, and O(nodes + edges). Preconditions: capacities are not negative and sum,
+// solve for each digit, and O(nodes + edges). `start`: about the flow of each edge, for the solver
+// to begin with (SolveOptions); or empty. Preconditions: capacities are not negative and sum,
 // constant included, to less than 2^124. Errors: those of CutSolver::solve; CertificateError where
 // the solver's flow is no maximum flow.
-WideCut solve_wide(const WideProblem& problem, CutSolver& solver, Observer& observer);
+WideCut solve_wide(const WideProblem& problem, CutSolver& solver, Observer& observer,
+                   std::span<const double> start = {});
 
 }  // namespace cellocut

@@ -37,8 +37,8 @@ class PathSearch {
   // Finds what changes within the open range, in each connected part on its own: parts that no edge
   // joins have paths that know nothing of each other. So have the two halves of a range; whatever
   // is independent is done in parallel, and the changes come in the order of the recursion.
-  std::vector<Change> divide(Piece piece);
-  std::vector<Change> divide_connected(Piece piece);
+  std::vector<Change> divide(Piece piece, const LambdaInterval& range);
+  std::vector<Change> divide_connected(Piece piece, const LambdaInterval& range);
   // Puts the changes in order: those at one lambda are one breakpoint.
   void find_breakpoints(InterfaceAreas areas);
 
@@ -85,18 +85,34 @@ std::vector<double> flow_by_area(const WideCut& cut, const Lambda& lambda) {
   return flow;
 }
 
-std::vector<Change> PathSearch::divide_connected(Piece piece) {
+// Where to divide a range: at the crossing, which may be a breakpoint; but first at a simple
+// fraction near by, where one digit of capacities does, unless an end of the range is as near.
+Lambda divider(const Lambda& crossing, const LambdaInterval& range) {
+  constexpr double kNear = 1.0 / 32;
+  constexpr double kUnit = 0x1p20;
+  const double middle = to_double(crossing);
+  if (middle < 0x1p-10 || middle > 0x1p20) return crossing;
+  const auto in_units = [](double x) {
+    return Lambda{static_cast<std::int64_t>(x * kUnit), static_cast<std::int64_t>(kUnit)};
+  };
+  const Lambda low = in_units((1 - kNear) * middle);
+  const Lambda high = in_units((1 + kNear) * middle);
+  return range.from < low && high < range.to ? simplest_between(low, high) : crossing;
+}
+
+std::vector<Change> PathSearch::divide_connected(Piece piece, const LambdaInterval& range) {
   const ParametricProblem& problem = piece.problem;
   const InterfaceAreas before = areas_of(problem, piece.before);
   const InterfaceAreas after = areas_of(problem, piece.after);
   if (before == after) return {};
-  const Lambda lambda = crossing(before, after);
+  const Lambda both = crossing(before, after);
   if (problem.node_count() == 1) {
     // Nothing to solve: at the crossing both sides cost the same.
-    return {{lambda, before, after, piece.node, {}, {}}};
+    return {{both, before, after, piece.node, {}, {}}};
   }
+  const Lambda lambda = divider(both, range);
   WideCut cut = solve(piece, lambda);
-  if (cut.value == cost_at(before, lambda)) {
+  if (lambda == both && cut.value == cost_at(before, lambda)) {
     return {change_of(piece, lambda, before, after, std::move(cut))};
   }
   piece.flow = flow_by_area(cut, lambda);
@@ -107,8 +123,13 @@ std::vector<Change> PathSearch::divide_connected(Piece piece) {
   std::vector<Change> changes;
   std::vector<Change> later;
   tbb::parallel_invoke(
-      [&] { changes = divide(contract(piece, smallest, all, piece.before, largest)); },
-      [&] { later = divide(contract(piece, none, largest, smallest, piece.after)); });
+      [&] {
+        changes =
+            divide(contract(piece, smallest, all, piece.before, largest), {range.from, lambda});
+      },
+      [&] {
+        later = divide(contract(piece, none, largest, smallest, piece.after), {lambda, range.to});
+      });
   append(changes, std::move(later));
   const InterfaceAreas most = areas_of(problem, largest);
   const InterfaceAreas least = areas_of(problem, smallest);
@@ -118,11 +139,12 @@ std::vector<Change> PathSearch::divide_connected(Piece piece) {
   return changes;
 }
 
-std::vector<Change> PathSearch::divide(Piece piece) {
+std::vector<Change> PathSearch::divide(Piece piece, const LambdaInterval& range) {
   std::vector<Piece> parts = connected_parts(std::move(piece));
   std::vector<std::vector<Change>> of_part(parts.size());
-  tbb::parallel_for(std::size_t{0}, parts.size(),
-                    [&](std::size_t i) { of_part[i] = divide_connected(std::move(parts[i])); });
+  tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t i) {
+    of_part[i] = divide_connected(std::move(parts[i]), range);
+  });
   std::vector<Change> changes;
   for (std::vector<Change>& some : of_part) append(changes, std::move(some));
   return changes;
@@ -164,7 +186,8 @@ FillPath PathSearch::run(const ParametricProblem& problem, const Lambda& first,
   tbb::parallel_invoke([&] { begin = solve(whole, first); }, [&] { end = solve(whole, last); });
   whole.flow = flow_by_area(end, last);
   changes_ = divide(contract(whole, end.smallest_source_side, begin.largest_source_side,
-                             begin.smallest_source_side, end.largest_source_side));
+                             begin.smallest_source_side, end.largest_source_side),
+                    {first, last});
   path_.solves = solves_;
   path_.digits = digits_;
   path_.solved_nodes = solved_nodes_;

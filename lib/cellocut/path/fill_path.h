@@ -54,12 +54,13 @@ struct FillPath {
 };
 
 // The whole path over [first, last]. Labellings are the same for every exact solver; the flow and
-// the figures of the search may differ. Takes fewer than two cuts for each labelling, each of the
-// nodes in which the ends of its range differ; three of the whole problem where cuts are not
-// nested. Both ends of the range, and then whatever parts and halves of ranges are independent,
-// are solved in parallel: `solver` must keep nothing from one problem to the next. Preconditions:
-// first < last; areas sum to at most 2^50. Errors: as solve_wide();
-// std::logic_error where problem.nested() and cuts are not (not known to happen).
+// the figures of the search may differ. Takes fewer than two cuts for each labelling, and one at a
+// simple fraction for each range that is wide, each of the nodes in which the ends of its range
+// differ; where cuts are not nested, three of the whole problem for each labelling. Both ends of
+// the range, and then whatever parts and halves of ranges are independent, are solved in parallel:
+// `solver` must keep nothing from one problem to the next. Preconditions: first < last; areas sum
+// to at most 2^50. Errors: as solve_wide(); std::logic_error where problem.nested() and cuts are
+// not (not known to happen).
 FillPath find_fill_path(const ParametricProblem& problem, const Lambda& first, const Lambda& last,
                         CutSolver& solver, Observer& observer);
 

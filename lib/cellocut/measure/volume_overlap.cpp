@@ -1,7 +1,6 @@
 #include "cellocut/measure/volume_overlap.h"
 
 #include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
 #include <tbb/parallel_reduce.h>
 #include <tbb/parallel_sort.h>
 
@@ -76,7 +75,8 @@ struct InsideTest::Faces {
         box(checked_box(mesh)),
         frame(box),
         odd_edges(count_odd_edges(merged_triangles())),
-        tree(all_ids(), [this](std::uint32_t f) { return float_box_of(f); }) {}
+        tree(all_ids(),
+             [this](std::uint32_t f) { return float_box(frame, points, triangles[f]); }) {}
 
   [[nodiscard]] std::vector<Triangle> merged_triangles() const {
     const std::vector<std::uint32_t> first = merge_equal_positions(points);
@@ -90,10 +90,6 @@ struct InsideTest::Faces {
     std::vector<std::uint32_t> ids(triangles.size());
     std::iota(ids.begin(), ids.end(), 0U);
     return ids;
-  }
-  [[nodiscard]] FloatBox float_box_of(std::uint32_t face) const {
-    const Triangle& t = triangles[face];
-    return float_box({frame(points[t[0]]), frame(points[t[1]]), frame(points[t[2]])});
   }
 };
 

@@ -31,8 +31,7 @@ LiveFaces::LiveFaces(const std::vector<Point3>& points, const std::vector<Triang
 }
 
 FloatBox LiveFaces::box_of(const Triangle& corners) const {
-  return float_box(
-      {frame_(points_[corners[0]]), frame_(points_[corners[1]]), frame_(points_[corners[2]])});
+  return float_box(frame_, points_, corners);
 }
 
 void LiveFaces::note_places() {

@@ -2,24 +2,15 @@
 
 #include <tbb/parallel_for.h>
 
-#include <array>
 #include <cmath>
 #include <span>
 
 #include "cellocut/validity/certain_side.h"
+#include "cellocut/validity/fan.h"
 
 namespace cellocut {
 
 namespace {
-
-constexpr std::size_t kMostFaces = 16;
-
-// The faces (v, from, to) around a vertex v.
-struct Fan {
-  std::size_t count = 0;
-  std::array<std::uint32_t, kMostFaces> from;
-  std::array<std::uint32_t, kMostFaces> to;
-};
 
 // Whether each `to` is one `from`: closed fans, as far as indices go.
 bool closes(const Fan& fan) {
@@ -65,15 +56,8 @@ EmbeddedStars::EmbeddedStars(const std::vector<Point3>& points,
     : embedded_(points.size(), 0) {
   tbb::parallel_for(std::size_t{0}, points.size(), [&](std::size_t v) {
     const std::span<const std::uint32_t> corners = corners_at[v];
-    if (corners.size() > kMostFaces) return;
-    Fan fan;
-    for (const std::uint32_t corner : corners) {
-      const Triangle& t = triangles[corner / 3];
-      const std::uint32_t k = corner % 3;
-      fan.from[fan.count] = t[(k + 1) % 3];
-      fan.to[fan.count] = t[(k + 2) % 3];
-      ++fan.count;
-    }
+    if (corners.size() > Fan::kMostFaces) return;
+    const Fan fan(triangles, corners);
     const auto vertex = static_cast<std::uint32_t>(v);
     embedded_[v] = closes(fan) && is_embedded(points, vertex, fan) ? 1 : 0;
   });

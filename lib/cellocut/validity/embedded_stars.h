@@ -2,7 +2,6 @@
 // their common corners and edges: most pairs of faces whose boxes overlap share a vertex.
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
 #include <vector>
 

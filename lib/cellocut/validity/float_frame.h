@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
+#include <vector>
 
 #include "cellocut/base/point.h"
+#include "cellocut/mesh/triangle_soup.h"
 #include "cellocut/validity/box_tree.h"
 
 namespace cellocut {
@@ -41,6 +43,12 @@ inline FloatBox float_box(std::initializer_list<Point3> points) {
     }
   }
   return box;
+}
+
+// The box of a face of a mesh.
+inline FloatBox float_box(const FloatFrame& frame, const std::vector<Point3>& points,
+                          const Triangle& face) {
+  return float_box({frame(points[face[0]]), frame(points[face[1]]), frame(points[face[2]])});
 }
 
 }  // namespace cellocut

@@ -12,6 +12,7 @@
 #include <span>
 
 #include "cellocut/validity/buckets.h"
+#include "cellocut/validity/fan.h"
 
 namespace cellocut {
 
@@ -154,22 +155,14 @@ class Counter {
   // None of its edges then is a boundary, non-manifold or turned, and no two of its faces are the
   // same. Counts nothing and returns false elsewhere.
   bool count_closed_fan(std::uint32_t v, std::span<const std::uint32_t> corners, Tally& tally) {
-    constexpr std::size_t kMostFaces = 16;
     const std::size_t count = corners.size();
-    if (count < 3 || count > kMostFaces) return false;
-    std::array<std::uint32_t, kMostFaces> from;
-    std::array<std::uint32_t, kMostFaces> to;
-    for (std::size_t i = 0; i < count; ++i) {
-      const Triangle& triangle = triangles_[corners[i] / 3];
-      const std::uint32_t k = corners[i] % 3;
-      from[i] = triangle[(k + 1) % 3];
-      to[i] = triangle[(k + 2) % 3];
-    }
-    std::array<std::uint8_t, kMostFaces> next;
+    if (count < 3 || count > Fan::kMostFaces) return false;
+    const Fan fan(triangles_, corners);
+    std::array<std::uint8_t, Fan::kMostFaces> next;
     for (std::size_t i = 0; i < count; ++i) {
       std::size_t matches = 0;
       for (std::size_t j = 0; j < count; ++j) {
-        if (from[j] != to[i]) continue;
+        if (fan.from[j] != fan.to[i]) continue;
         next[i] = static_cast<std::uint8_t>(j);
         ++matches;
       }
@@ -179,7 +172,7 @@ class Counter {
     for (std::size_t i = next[0]; i != 0 && length <= count; i = next[i]) ++length;
     if (length != count) return false;
     for (std::size_t i = 0; i < count; ++i) {
-      if (to[i] < v) continue;
+      if (fan.to[i] < v) continue;
       ++tally.edges;
       sets_.unite(corners[i] / 3, corners[next[i]] / 3);
     }

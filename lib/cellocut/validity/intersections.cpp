@@ -117,8 +117,7 @@ class Search {
 
   IntersectingPairs run() {
     const auto box_of = [this](std::uint32_t face) {
-      const auto [a, b, c] = frame_corners(face);
-      return float_box({a, b, c});
+      return float_box(frame_, points_, triangles_[face]);
     };
     const auto classes = size_classes(faces_, box_of);
     observer_.check();

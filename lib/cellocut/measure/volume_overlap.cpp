@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <vector>
 
 #include "cellocut/base/line_coverage.h"
@@ -75,7 +74,7 @@ struct InsideTest::Faces {
         box(checked_box(mesh)),
         frame(box),
         odd_edges(count_odd_edges(merged_triangles())),
-        tree(all_ids(),
+        tree(triangles.size(),
              [this](std::uint32_t f) { return float_box(frame, points, triangles[f]); }) {}
 
   [[nodiscard]] std::vector<Triangle> merged_triangles() const {
@@ -85,11 +84,6 @@ struct InsideTest::Faces {
       for (std::uint32_t& corner : t) corner = first[corner];
     }
     return merged;
-  }
-  [[nodiscard]] std::vector<std::uint32_t> all_ids() const {
-    std::vector<std::uint32_t> ids(triangles.size());
-    std::iota(ids.begin(), ids.end(), 0U);
-    return ids;
   }
 };
 

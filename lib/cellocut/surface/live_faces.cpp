@@ -3,8 +3,8 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <numeric>
 #include <span>
+#include <utility>
 
 namespace cellocut {
 
@@ -13,19 +13,13 @@ namespace {
 constexpr std::uint32_t kGone = 0xFFFFFFFFU;
 constexpr std::size_t kSmall = 1024;  // faces; a tree of fewer is not worth building anew
 
-std::vector<std::uint32_t> indices_below(std::size_t count) {
-  std::vector<std::uint32_t> indices(count);
-  std::iota(indices.begin(), indices.end(), 0U);
-  return indices;
-}
-
 }  // namespace
 
 LiveFaces::LiveFaces(const std::vector<Point3>& points, const std::vector<Triangle>& faces)
     : points_(points),
       frame_(bounding_box(points, faces)),
       count_(faces.size()),
-      tree_(indices_below(faces.size()), [&](std::uint32_t f) { return box_of(faces[f]); }),
+      tree_(faces.size(), [&](std::uint32_t f) { return box_of(faces[f]); }),
       place_(faces.size()) {
   note_places();
 }
@@ -59,7 +53,7 @@ void LiveFaces::remove(std::uint32_t face) {
   }
   // In the order of faces: the tree then does not depend on the one before.
   std::sort(left.begin(), left.end());
-  tree_ = BoxTree(left, [this](std::uint32_t id) { return box(id); });
+  tree_ = BoxTree(std::move(left), [this](std::uint32_t id) { return box(id); });
   note_places();
 }
 

@@ -1,6 +1,7 @@
-// A tree of axis-aligned boxes over their order along a Morton curve (Lauterbach, Garland,
-// Sengupta, Luebke, Manocha, "Fast BVH construction on GPUs", 2009): sorting once is cheaper than
-// to split at medians, and what the boxes overlap more is less than that.
+// A tree of axis-aligned boxes over the order they come in, where neighbours in it are neighbours
+// in space as in an extracted surface, or else over their order along a Morton curve (Lauterbach,
+// Garland, Sengupta, Luebke, Manocha, "Fast BVH construction on GPUs", 2009): sorting once is
+// cheaper than to split at medians, and what the boxes overlap more is less than that.
 //
 // Every node has eight children, which one step compares with a box (as in Wald, Benthin, Boulos,
 // "Getting rid of packets", 2008). All leaves lie at one depth, so that the children of a node are
@@ -114,11 +115,12 @@ class EightBoxes {
 
 class BoxTree {
  public:
-  // The boxes of the given ids, in the coordinates of a FloatFrame (float_frame.h) around them; so
-  // many are they that each is asked for twice instead of kept. O(n log n), parallel.
-  // Preconditions: ids is not empty; box_of may be called at once from several threads.
-  BoxTree(const std::vector<std::uint32_t>& ids,
-          const std::function<FloatBox(std::uint32_t)>& box_of);
+  // The boxes of the given ids, in the coordinates of a FloatFrame (float_frame.h) around them.
+  // O(n), or O(n log n) where they have to be sorted; parallel. Preconditions: ids is not empty;
+  // box_of may be called at once from several threads.
+  BoxTree(std::vector<std::uint32_t> ids, const std::function<FloatBox(std::uint32_t)>& box_of);
+  // Of all ids below `count`.
+  BoxTree(std::size_t count, const std::function<FloatBox(std::uint32_t)>& box_of);
 
   [[nodiscard]] std::size_t leaf_count() const { return levels_[0].size; }
 
@@ -223,6 +225,14 @@ class BoxTree {
   // The level above `below` boxes, of which box_at(place) gives each.
   template <class BoxAt>
   static Level level_above(std::size_t below, const BoxAt& box_at);
+  // All levels, over box_at(place) for each place.
+  template <class BoxAt>
+  void bound(const BoxAt& box_at);
+
+  // Whether the boxes are in an order good enough to search.
+  [[nodiscard]] bool is_compact() const;
+  // Of the longest edges of all boxes in the nodes of a level.
+  static double squared_edges(const Level& level);
 
   std::vector<std::uint32_t> ids_;  // in the order of the leaves
   // Child c of node i on level k: on level 0 the box at place 8 i + c, above it node 8 i + c of

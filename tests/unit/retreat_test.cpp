@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
+#include "cellocut/validity/incidence.h"
 #include "cellocut/validity/surface_report.h"
 #include "hand_made_field.h"
 #include "support/defective_meshes.h"
@@ -12,8 +13,12 @@
 namespace cellocut::testing {
 namespace {
 
+Buckets corners_of(const TriangleSoup& soup) {
+  return corners_by_point(soup.triangles, soup.points.size());
+}
+
 Retreat move(const TriangleSoup& soup, const std::vector<Point3>& to) {
-  return move_vertices(soup.points, to, to, soup.triangles, silent_observer());
+  return move_vertices(soup.points, to, to, soup.triangles, corners_of(soup), silent_observer());
 }
 
 void expect_valid(const TriangleSoup& soup, const Retreat& moved) {
@@ -111,7 +116,8 @@ TEST(Retreat, WhatCannotGoBeyondArrivesAllTheSame) {
     to[v][0] += 0.25;
     beyond[v][0] += 1;  // 0.5 into the other one
   }
-  const Retreat moved = move_vertices(soup.points, to, beyond, soup.triangles, silent_observer());
+  const Retreat moved =
+      move_vertices(soup.points, to, beyond, soup.triangles, corners_of(soup), silent_observer());
   expect_valid(soup, moved);
   for (std::size_t v = 0; v < first; ++v) {
     EXPECT_EQ(moved.halvings[v], 0);
@@ -131,7 +137,8 @@ TEST(Retreat, StopsWhenAskedTo) {
   Stop stop;
   const TriangleSoup soup = test::icosphere(2);
   const std::vector<Point3> centre(soup.points.size(), Point3{0, 0, 0});
-  EXPECT_THROW(move_vertices(soup.points, centre, centre, soup.triangles, stop), Cancelled);
+  EXPECT_THROW(move_vertices(soup.points, centre, centre, soup.triangles, corners_of(soup), stop),
+               Cancelled);
 }
 
 }  // namespace

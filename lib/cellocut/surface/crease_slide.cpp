@@ -1,9 +1,9 @@
 #include "cellocut/surface/crease_slide.h"
 
-#include <tbb/parallel_for.h>
-
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <vector>
 
 namespace cellocut {
 
@@ -18,36 +18,31 @@ constexpr double kMostTurn = 0.7;  // cosine of how far the side may turn in a s
 
 }  // namespace
 
-CreaseSlide::CreaseSlide(const TriangleSoup& surface, std::span<const PullTarget> targets,
-                         const NearestTriangle& input, double offset, double distance)
+CreaseSlide::CreaseSlide(const TriangleSoup& surface, const Buckets& corners_at,
+                         std::span<const PullTarget> targets, const NearestTriangle& input,
+                         double offset, double distance)
     : surface_(surface),
+      corners_at_(corners_at),
       targets_(targets),
       input_(input),
       offset_(offset),
-      distance_(distance),
-      facing_(targets.size()) {
-  // By bits, the edges of each face that lead across a crease. (Summed one after the other: few are
-  // creases, and the sum depends on the order.)
-  std::vector<std::uint8_t> creases(surface.triangles.size());
-  tbb::parallel_for(std::size_t{0}, creases.size(), [&](std::size_t f) {
-    const Triangle& t = surface.triangles[f];
-    for (int k = 0; k < 3; ++k) {
-      if (crosses_crease(t[k], t[(k + 1) % 3])) creases[f] |= 1U << k;
-    }
-  });
-  for (std::size_t f = 0; f < creases.size(); ++f) {
-    if (creases[f] == 0) continue;
-    const Triangle& t = surface.triangles[f];
-    for (int k = 0; k < 3; ++k) {
-      if ((creases[f] >> k & 1) == 0) continue;
-      facing_[t[k]] = facing_[t[k]] + targets[t[(k + 1) % 3]].direction;
-    }
+      distance_(distance) {}
+
+// In a closed oriented surface each edge of a vertex leads out of it in one face. (The sum of all
+// across creases, and not one of them: which is chosen among equals would be up to the last bit. In
+// the order of the faces, as the sum depends on it.)
+Point3 CreaseSlide::facing(std::uint32_t vertex) const {
+  if (squared_norm(targets_[vertex].direction) == 0) return {};
+  std::vector<std::uint32_t> across;  // corners; almost always none
+  for (const std::uint32_t corner : corners_at_[vertex]) {
+    if (crosses_crease(vertex, next(corner))) across.push_back(corner);
   }
+  std::sort(across.begin(), across.end());
+  Point3 sum{};
+  for (const std::uint32_t corner : across) sum = sum + targets_[next(corner)].direction;
+  return sum;
 }
 
-// In a closed oriented surface every edge is seen from both of its ends. (The sum of all that a
-// vertex has across creases, and not one of them: which is chosen among equals would be up to the
-// last bit.)
 bool CreaseSlide::crosses_crease(std::uint32_t vertex, std::uint32_t other) const {
   const Point3& a = targets_[vertex].direction;
   const Point3& b = targets_[other].direction;
@@ -58,9 +53,10 @@ bool CreaseSlide::crosses_crease(std::uint32_t vertex, std::uint32_t other) cons
 }
 
 Point3 CreaseSlide::operator()(std::uint32_t vertex, const Point3& to) const {
-  const double sum = std::sqrt(squared_norm(facing_[vertex]));
+  const Point3 across = facing(vertex);
+  const double sum = std::sqrt(squared_norm(across));
   if (!(sum > 0.5)) return to;  // not at a crease, or between sides that face each other
-  const Point3 facing = (1 / sum) * facing_[vertex];
+  const Point3 direction = (1 / sum) * across;
   const double step = kStep * offset_;
   // The whole way first.
   constexpr int kMostSteps = static_cast<int>(kLongest / kStep);
@@ -68,14 +64,14 @@ Point3 CreaseSlide::operator()(std::uint32_t vertex, const Point3& to) const {
   way[0] = {to, targets_[vertex].direction};
   int steps = 0;
   while (steps < kMostSteps) {
-    const std::optional<Footing> next = step_down(way[steps], facing, step);
+    const std::optional<Footing> next = step_down(way[steps], direction, step);
     if (!next) break;
     way[++steps] = *next;
   }
   const double length = kShare * steps;  // in steps
   const int whole = static_cast<int>(length);
   if (length == whole) return way[whole].place;
-  const std::optional<Footing> end = step_down(way[whole], facing, (length - whole) * step);
+  const std::optional<Footing> end = step_down(way[whole], direction, (length - whole) * step);
   return end ? end->place : way[whole].place;
 }
 

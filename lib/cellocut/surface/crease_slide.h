@@ -4,10 +4,10 @@
 #include <cstdint>
 #include <optional>
 #include <span>
-#include <vector>
 
 #include "cellocut/measure/nearest_triangle.h"
 #include "cellocut/mesh/triangle_soup.h"
+#include "cellocut/validity/buckets.h"
 
 namespace cellocut {
 
@@ -24,11 +24,12 @@ struct PullTarget {
 // crease's neighbourhood keeps its order, and the bevel shrinks.
 class CreaseSlide {
  public:
-  // `surface`: before the pull; targets: by vertex; `offset`: the distance of supported vertices
-  // from the input now, about, and `distance` that which the pull leaves. All of them must outlive
-  // this. O(n).
-  CreaseSlide(const TriangleSoup& surface, std::span<const PullTarget> targets,
-              const NearestTriangle& input, double offset, double distance);
+  // `surface`: before the pull; corners_at: its corners_by_point() (incidence.h); targets: by
+  // vertex; `offset`: the distance of supported vertices from the input now, about, and `distance`
+  // that which the pull leaves. All of them must outlive this.
+  CreaseSlide(const TriangleSoup& surface, const Buckets& corners_at,
+              std::span<const PullTarget> targets, const NearestTriangle& input, double offset,
+              double distance);
 
   // Where the vertex slides from `to`, its place after the pull; `to` itself where it is not at a
   // crease. It goes at most twice `offset`, keeps to its side, at `distance` from it, and away from
@@ -41,17 +42,23 @@ class CreaseSlide {
     Point3 side;  // from the nearest point on the input to the place, of length 1
   };
 
+  // The vertex that the edge from a corner, as corners_at has it, leads to.
+  [[nodiscard]] std::uint32_t next(std::uint32_t corner) const {
+    return surface_.triangles[corner / 3][(corner % 3 + 1) % 3];
+  }
+  // The sum of the directions of neighbours across concave creases; 0: there is none.
+  [[nodiscard]] Point3 facing(std::uint32_t vertex) const;
   // Whether the way from a vertex to another one leads across a concave crease.
   [[nodiscard]] bool crosses_crease(std::uint32_t vertex, std::uint32_t other) const;
   [[nodiscard]] std::optional<Footing> step_down(const Footing& from, const Point3& facing,
                                                  double step) const;
 
   const TriangleSoup& surface_;
+  const Buckets& corners_at_;
   std::span<const PullTarget> targets_;
   const NearestTriangle& input_;
   double offset_;
   double distance_;
-  std::vector<Point3> facing_;  // by vertex: the sum of the directions across creases; 0: none
 };
 
 }  // namespace cellocut

@@ -2,6 +2,7 @@
 
 #include "cellocut/surface/fairing.h"
 #include "cellocut/surface/retreat.h"
+#include "cellocut/validity/incidence.h"
 
 namespace cellocut {
 
@@ -11,7 +12,8 @@ FairReport fair_surface(TriangleSoup& surface, const std::vector<std::uint8_t>& 
   const FairingResult wanted =
       fair_completed(surface, supported, input, step, clearance, {}, observer);
   Retreat moved =
-      move_vertices(surface.points, wanted.points, wanted.points, surface.triangles, observer);
+      move_vertices(surface.points, wanted.points, wanted.points, surface.triangles,
+                    corners_by_point(surface.triangles, surface.points.size()), observer);
   surface.points = std::move(moved.points);
   FairReport report{.patches = wanted.patches,
                     .patches_left = wanted.patches_left,

@@ -9,15 +9,18 @@
 
 #include "cellocut/surface/crease_slide.h"
 #include "cellocut/surface/retreat.h"
+#include "cellocut/validity/incidence.h"
 
 namespace cellocut {
 
 Quantiles quantiles_of(std::vector<double> values) {
   if (values.empty()) return {};
-  const auto at = [&values](double share) {
+  auto begin = values.begin();  // what ranks below the last one lies before
+  const auto at = [&](double share) {
     const auto rank = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-    std::nth_element(values.begin(), values.begin() + rank, values.end());
-    return values[static_cast<std::size_t>(rank)];
+    std::nth_element(begin, values.begin() + rank, values.end());
+    begin = values.begin() + rank;
+    return *begin;
   };
   return {at(0.5), at(0.95), at(1.0)};
 }
@@ -44,7 +47,8 @@ PullReport pull_to_input(TriangleSoup& surface, const std::vector<std::uint8_t>&
     targets[v] = {nearest.point, (1 / nearest.distance) * (from - nearest.point)};
     offset[v] = distance;
   });
-  const CreaseSlide slide(surface, {targets.get(), count}, input, expected, distance);
+  const Buckets corners_at = corners_by_point(surface.triangles, count);
+  const CreaseSlide slide(surface, corners_at, {targets.get(), count}, input, expected, distance);
   const auto to = std::make_unique_for_overwrite<Point3[]>(count);
   std::vector<Point3> beyond(count);
   tbb::parallel_for(std::size_t{0}, count, [&](std::size_t v) {
@@ -55,7 +59,7 @@ PullReport pull_to_input(TriangleSoup& surface, const std::vector<std::uint8_t>&
   });
   observer.check();
   Retreat moved = move_vertices(surface.points, {to.get(), count}, std::move(beyond),
-                                surface.triangles, observer);
+                                surface.triangles, corners_at, observer);
   report.bad_faces_at_first = moved.bad_faces_at_first;
   report.rounds = moved.rounds;
 

@@ -6,13 +6,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <utility>
 
 #include "cellocut/surface/live_faces.h"
-#include "cellocut/validity/buckets.h"
 #include "cellocut/validity/face_filter.h"
-#include "cellocut/validity/incidence.h"
 #include "cellocut/validity/intersections.h"
 #include "cellocut/validity/triangle_pair.h"
 
@@ -39,8 +36,8 @@ void join(std::vector<T>& values, const std::vector<T>& more) {
 class Movement {
  public:
   Movement(const std::vector<Point3>& from, std::span<const Point3> to, std::vector<Point3> beyond,
-           const std::vector<Triangle>& triangles, Observer& observer)
-      : from_(from), to_(to), triangles_(triangles), observer_(observer) {
+           const std::vector<Triangle>& triangles, const Buckets& corners_at, Observer& observer)
+      : from_(from), to_(to), triangles_(triangles), corners_at_(corners_at), observer_(observer) {
     result_.points = std::move(beyond);
     result_.halvings.assign(from.size(), 0);
     result_.fell_short.assign(from.size(), 0);
@@ -52,22 +49,19 @@ class Movement {
     LiveFaces live(result_.points, triangles_);
     observer_.check();
     Pairs bad = hide_degenerate(moved, live);
-    std::optional<Buckets> corners_at;
     // Where most of the mesh moves, one search for all pairs is the quicker way.
     if (moved.size() > triangles_.size() / 4) {
-      corners_at = corners_by_point(triangles_, from_.size());
-      join(bad, intersecting(live, *corners_at));
+      join(bad, intersecting(live));
     } else {
       join(bad, intersecting_among(moved, live));
     }
     if (bad.empty()) return std::move(result_);
-    if (!corners_at) corners_at = corners_by_point(triangles_, from_.size());
     result_.bad_faces_at_first = count_faces(bad);
 
     while (!bad.empty()) {
       observer_.check();
       ++result_.rounds;
-      const Indices changed = faces_at(step_back(bad, *corners_at), *corners_at);
+      const Indices changed = faces_at(step_back(bad));
       for (const std::uint32_t face : changed) live.change(face, triangles_[face]);
       bad = hide_degenerate(changed, live);
       // (Pairs of faces that did not change were not bad before: some vertex of every bad pair
@@ -79,10 +73,13 @@ class Movement {
 
  private:
   [[nodiscard]] Indices moved_faces() const {
+    std::vector<std::uint8_t> moved(from_.size());
+    tbb::parallel_for(std::size_t{0}, from_.size(),
+                      [&](std::size_t v) { moved[v] = from_[v] != result_.points[v] ? 1 : 0; });
     std::vector<std::uint8_t> moves(triangles_.size());
     tbb::parallel_for(std::size_t{0}, triangles_.size(), [&](std::size_t f) {
-      const auto moved = [this](std::uint32_t v) { return from_[v] != result_.points[v]; };
-      moves[f] = std::any_of(triangles_[f].begin(), triangles_[f].end(), moved) ? 1 : 0;
+      const Triangle& t = triangles_[f];
+      moves[f] = moved[t[0]] | moved[t[1]] | moved[t[2]];
     });
     Indices faces;
     faces.reserve(triangles_.size());
@@ -112,8 +109,8 @@ class Movement {
   }
 
   // All pairs of faces that intersect; those hidden take no part, here and below.
-  [[nodiscard]] Pairs intersecting(const LiveFaces& live, const Buckets& corners_at) const {
-    const EmbeddedStars stars(result_.points, triangles_, corners_at);
+  [[nodiscard]] Pairs intersecting(const LiveFaces& live) const {
+    const EmbeddedStars stars(result_.points, triangles_, corners_at_);
     tbb::enumerable_thread_specific<Pairs> found;
     visit_intersecting_pairs(
         live.tree(), result_.points, triangles_, stars,
@@ -160,9 +157,8 @@ class Movement {
   [[nodiscard]] bool is_beyond(std::uint32_t v) const { return result_.is_beyond(v, to_[v]); }
 
   // Those vertices of a bad pair that are beyond come back to where they were to go at least; where
-  // there are none, the way of all is halved. Returns the vertices that this moves. `corners_at`:
-  // by vertex, 3 f + k for each corner k of a face f that it is.
-  Indices step_back(const Pairs& bad, const Buckets& corners_at) {
+  // there are none, the way of all is halved. Returns the vertices that this moves.
+  Indices step_back(const Pairs& bad) {
     Indices too_far;
     Indices in_the_way;
     for (const auto& [f, g] : bad) {
@@ -196,7 +192,7 @@ class Movement {
       }
     }
     for (const std::uint32_t v : stuck) {
-      for (const std::uint32_t corner : corners_at[v]) {
+      for (const std::uint32_t corner : corners_at_[v]) {
         for (const std::uint32_t neighbour : triangles_[corner / 3]) {
           if (result_.halvings[neighbour] == Retreat::kStayed) continue;
           if (is_beyond(neighbour)) result_.fell_short[neighbour] = 1;
@@ -209,10 +205,10 @@ class Movement {
     return changed;
   }
 
-  static Indices faces_at(const Indices& vertices, const Buckets& corners_at) {
+  [[nodiscard]] Indices faces_at(const Indices& vertices) const {
     Indices faces;
     for (const std::uint32_t v : vertices) {
-      for (const std::uint32_t corner : corners_at[v]) faces.push_back(corner / 3);
+      for (const std::uint32_t corner : corners_at_[v]) faces.push_back(corner / 3);
     }
     sort_unique(faces);
     return faces;
@@ -221,6 +217,7 @@ class Movement {
   const std::vector<Point3>& from_;
   std::span<const Point3> to_;
   const std::vector<Triangle>& triangles_;
+  const Buckets& corners_at_;
   Observer& observer_;
   Retreat result_;
 };
@@ -229,8 +226,8 @@ class Movement {
 
 Retreat move_vertices(const std::vector<Point3>& from, std::span<const Point3> to,
                       std::vector<Point3> beyond, const std::vector<Triangle>& triangles,
-                      Observer& observer) {
-  return Movement(from, to, std::move(beyond), triangles, observer).run();
+                      const Buckets& corners_at, Observer& observer) {
+  return Movement(from, to, std::move(beyond), triangles, corners_at, observer).run();
 }
 
 }  // namespace cellocut

@@ -7,6 +7,7 @@
 
 #include "cellocut/base/observer.h"
 #include "cellocut/mesh/triangle_soup.h"
+#include "cellocut/validity/buckets.h"
 
 namespace cellocut {
 
@@ -35,6 +36,7 @@ struct Retreat {
 // valid mesh. Faces none of whose vertices move are only tested against those that do, so where
 // little moves, little is tested.
 //
+// `corners_at`: as corners_by_point() (incidence.h) gives it.
 // `beyond`: a vertex is first tried there; where that does not do it goes back to `to`, and from
 // then on as above. Pass `to` where there is no such place.
 //
@@ -42,6 +44,6 @@ struct Retreat {
 // for any number of threads. O(n log n + rounds * faces that were bad). Errors: Cancelled.
 Retreat move_vertices(const std::vector<Point3>& from, std::span<const Point3> to,
                       std::vector<Point3> beyond, const std::vector<Triangle>& triangles,
-                      Observer& observer);
+                      const Buckets& corners_at, Observer& observer);
 
 }  // namespace cellocut

@@ -10,7 +10,8 @@
 namespace cellocut {
 namespace {
 
-TriangleSoup random_soup(int faces, double scale, const Point3& offset, unsigned seed) {
+TriangleSoup random_soup(int faces, double size, double scale, const Point3& offset,
+                         unsigned seed) {
   std::mt19937_64 random(seed);
   std::uniform_real_distribution<double> coordinate(-1, 1);
   TriangleSoup soup;
@@ -19,34 +20,38 @@ TriangleSoup random_soup(int faces, double scale, const Point3& offset, unsigned
     const Point3 at{coordinate(random), coordinate(random), coordinate(random)};
     for (int k = 0; k < 3; ++k) {
       const Point3 side{coordinate(random), coordinate(random), coordinate(random)};
-      soup.points.push_back(offset + scale * (at + 0.2 * side));
+      soup.points.push_back(offset + scale * (at + size * side));
     }
     soup.triangles.push_back({first, first + 1, f % 7 == 0 ? first : first + 2});
   }
   return soup;
 }
 
+void expect_minimum_over_all_faces(double size, double scale) {
+  const TriangleSoup soup = random_soup(300, size, scale, Point3{scale, 5 * scale, -scale}, 5);
+  const NearestTriangle nearest(soup);
+  std::mt19937_64 random(7);
+  std::uniform_real_distribution<double> coordinate(-3, 8);
+  for (int n = 0; n < 2000; ++n) {
+    const Point3 p = scale * Point3{coordinate(random), coordinate(random), coordinate(random)};
+    double least = std::numeric_limits<double>::infinity();
+    for (const Triangle& t : soup.triangles) {
+      const Point3 q = (1 / scale) * p;
+      const Point3 on =
+          nearest_on_triangle(q, (1 / scale) * soup.points[t[0]], (1 / scale) * soup.points[t[1]],
+                              (1 / scale) * soup.points[t[2]]);
+      least = std::min(least, norm(q - on));
+    }
+    const NearestPoint found = nearest(p);
+    ASSERT_TRUE(found.found());
+    EXPECT_NEAR(found.distance / scale, least, 1e-13);
+    EXPECT_NEAR(norm((1 / scale) * (p - found.point)), least, 1e-13);
+  }
+}
+
 TEST(NearestTriangle, IsTheMinimumOverAllFaces) {
   for (const double scale : {1e-40, 1.0, 1e90}) {
-    const TriangleSoup soup = random_soup(300, scale, Point3{scale, 5 * scale, -scale}, 5);
-    const NearestTriangle nearest(soup);
-    std::mt19937_64 random(7);
-    std::uniform_real_distribution<double> coordinate(-3, 8);
-    for (int n = 0; n < 2000; ++n) {
-      const Point3 p = scale * Point3{coordinate(random), coordinate(random), coordinate(random)};
-      double least = std::numeric_limits<double>::infinity();
-      for (const Triangle& t : soup.triangles) {
-        const Point3 q = (1 / scale) * p;
-        const Point3 on =
-            nearest_on_triangle(q, (1 / scale) * soup.points[t[0]], (1 / scale) * soup.points[t[1]],
-                                (1 / scale) * soup.points[t[2]]);
-        least = std::min(least, norm(q - on));
-      }
-      const NearestPoint found = nearest(p);
-      ASSERT_TRUE(found.found());
-      EXPECT_NEAR(found.distance / scale, least, 1e-13);
-      EXPECT_NEAR(norm((1 / scale) * (p - found.point)), least, 1e-13);
-    }
+    for (const double size : {0.05, 0.2, 1.0}) expect_minimum_over_all_faces(size, scale);
   }
 }
 

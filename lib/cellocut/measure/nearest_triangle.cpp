@@ -10,6 +10,7 @@
 
 #include "cellocut/base/predicates.h"
 #include "cellocut/measure/embree_scene.h"
+#include "cellocut/measure/triangle_pieces.h"
 
 namespace cellocut {
 
@@ -48,6 +49,9 @@ Point3 nearest_on_triangle(const Point3& p, const Point3& a, const Point3& b, co
 struct NearestTriangle::Scene {
   std::vector<std::array<Point3, 3>> corners;
   std::vector<std::uint32_t> face;  // corners[i] are those of this face of the soup
+  // Primitives of the hierarchy: the triangles but for the long ones, then the pieces of these.
+  std::vector<TrianglePiece> pieces;
+  std::vector<bool> in_pieces;  // by triangle
   EmbreeFrame frame;
   EmbreeScene embree;
 
@@ -73,31 +77,45 @@ struct NearestTriangle::Scene {
 
   static void bounds(const RTCBoundsFunctionArguments* arguments) {
     const auto* self = static_cast<const Scene*>(arguments->geometryUserPtr);
-    const std::array<Point3, 3>& t = self->corners[arguments->primID];
-    Box3 box;
-    for (int axis = 0; axis < 3; ++axis) {
-      box.low[axis] = std::min({t[0][axis], t[1][axis], t[2][axis]});
-      box.high[axis] = std::max({t[0][axis], t[1][axis], t[2][axis]});
-    }
+    const std::uint32_t primitive = arguments->primID;
+    const std::size_t triangles = self->corners.size();
+    const bool whole = primitive < triangles;
+    const std::array<Point3, 3>& t =
+        whole ? self->corners[primitive] : self->pieces[primitive - triangles].corners;
+    Box3 box{t[0], t[0]};
+    box.include(t[1]);
+    box.include(t[2]);
+    if (whole && self->in_pieces[primitive]) std::swap(box.low, box.high);  // leaves it out
     set_embree_bounds(*arguments->bounds_o, box);
   }
 
-  // Sees each triangle that may lie within `radius`; may lower that, and then returns true.
+  // Sees each triangle, some of them more than once, that may lie within `radius`; may lower that,
+  // and then returns true.
   class Search {
    public:
-    virtual bool visit(std::uint32_t primitive, float& radius) = 0;
+    virtual bool visit(std::uint32_t triangle, float& radius) = 0;
 
    protected:
     ~Search() = default;
   };
 
-  void run(Search& search, const Point3& p, float radius) const {
-    embree.query(p, radius, &search);
+  [[nodiscard]] std::uint32_t triangle_of(std::uint32_t primitive) const {
+    return primitive < corners.size() ? primitive : pieces[primitive - corners.size()].triangle;
   }
 
+  void run(Search& search, const Point3& p, float radius) const {
+    Query query{*this, search};
+    embree.query(p, radius, &query);
+  }
+
+  struct Query {
+    const Scene& scene;
+    Search& search;
+  };
   static bool visit(RTCPointQueryFunctionArguments* arguments) {
-    return static_cast<Search*>(arguments->userPtr)
-        ->visit(arguments->primID, arguments->query->radius);
+    const auto* query = static_cast<const Query*>(arguments->userPtr);
+    return query->search.visit(query->scene.triangle_of(arguments->primID),
+                               arguments->query->radius);
   }
 };
 
@@ -188,7 +206,12 @@ NearestTriangle::Scene::Scene(const TriangleSoup& soup) {
   for (std::array<Point3, 3>& t : corners) {
     for (Point3& p : t) p = frame(p);
   }
-  embree.build(corners.size(), this, bounds, visit);
+  // No edge longer than an eighth of the box. (Pieces that are smaller still, or more, save no more
+  // than they cost, see docs/performance.md.)
+  pieces = cut_long_triangles(corners, 0.125, 1U << 14U);
+  in_pieces.assign(corners.size(), false);
+  for (const TrianglePiece& piece : pieces) in_pieces[piece.triangle] = true;
+  embree.build(corners.size() + pieces.size(), this, bounds, visit);
 }
 
 NearestTriangle::NearestTriangle(const TriangleSoup& soup)

@@ -130,6 +130,7 @@ VertexClusters::VertexClusters(const TriangleSoup& surface, double error, Observ
       trees_(blocks_.count()),
       undone_(blocks_.count()),
       node_(surface.points.size()),
+      representative_(surface.points.size()),
       left_(blocks_.count()),
       changed_(blocks_.count(), 1) {
   tbb::parallel_for(std::size_t{0}, trees_.size(), [&](std::size_t b) {
@@ -162,7 +163,9 @@ void VertexClusters::find_nodes(std::size_t block) {
     if (highest[i] == ClusterTree::kNone && undone_[block][i] == 0) highest[i] = i;
   }
   for (std::size_t leaf = 0; leaf < tree.leaves; ++leaf) {
-    node_[blocks_.points[block][leaf]] = highest[leaf];
+    const std::uint32_t point = blocks_.points[block][leaf];
+    node_[point] = highest[leaf];
+    representative_[point] = blocks_.points[block][tree.representative[highest[leaf]]];
   }
 }
 
@@ -188,17 +191,13 @@ bool VertexClusters::undo(const std::vector<std::uint32_t>& representatives) {
 }
 
 std::vector<Triangle> VertexClusters::faces() {
-  const auto representative = [this](std::uint32_t point) {
-    const std::uint32_t block = blocks_.of_point[point];
-    return blocks_.points[block][trees_[block].representative[node_[point]]];
-  };
   tbb::parallel_for(std::size_t{0}, left_.size(), [&](std::size_t b) {
     if (changed_[b] == 0) return;
     changed_[b] = 0;
     left_[b].clear();
     for (const std::uint32_t face : faces_.own[b]) {
       Triangle t = surface_.triangles[face];
-      for (std::uint32_t& corner : t) corner = representative(corner);
+      for (std::uint32_t& corner : t) corner = representative_[corner];
       if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) continue;
       std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
       left_[b].push_back(t);

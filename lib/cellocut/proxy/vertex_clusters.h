@@ -51,6 +51,7 @@ class VertexClusters {
   std::vector<ClusterTree> trees_;                 // per block
   std::vector<std::vector<std::uint8_t>> undone_;  // per block and node: not made
   std::vector<std::uint32_t> node_;                // per point, of its block's tree
+  std::vector<std::uint32_t> representative_;      // per point, of its node
   std::vector<std::vector<Triangle>> left_;        // per block: what its own faces have become
   std::vector<std::uint8_t> changed_;              // per block: that is no longer so
 };

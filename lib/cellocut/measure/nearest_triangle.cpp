@@ -1,5 +1,6 @@
 #include "cellocut/measure/nearest_triangle.h"
 
+#include <tbb/parallel_for.h>
 #include <tbb/parallel_sort.h>
 
 #include <algorithm>
@@ -45,9 +46,44 @@ Point3 nearest_on_triangle(const Point3& p, const Point3& a, const Point3& b, co
   return best;
 }
 
+namespace {
+
+// A plane that a triangle of the frame lies in, but for kEmbreeRounding: how far it is at least.
+// (Half of the triangles whose boxes a query meets lie in planes that are too far.)
+class NearPlane {
+ public:
+  NearPlane() = default;
+  explicit NearPlane(const std::array<Point3, 3>& corners) {
+    const Point3 normal = cross(corners[1] - corners[0], corners[2] - corners[0]);
+    const double length = norm(normal);
+    if (!(length > 0)) return;
+    for (std::size_t k = 0; k < 3; ++k) normal_[k] = static_cast<float>(normal[k] / length);
+    height_ = static_cast<float>(height(corners[0]));
+    for (const Point3& corner : corners) {
+      if (!(std::fabs(height(corner)) <= kEmbreeRounding)) *this = {};  // as of slivers
+    }
+  }
+  [[nodiscard]] bool beyond(const Point3& p, float radius) const {
+    return std::fabs(height(p)) > static_cast<double>(radius) + kEmbreeRounding;
+  }
+
+ private:
+  [[nodiscard]] double height(const Point3& p) const {
+    return (static_cast<double>(normal_[0]) * p[0] + static_cast<double>(normal_[1]) * p[1] +
+            static_cast<double>(normal_[2]) * p[2]) -
+           static_cast<double>(height_);
+  }
+
+  std::array<float, 3> normal_{};  // 0: no such plane, and nothing is beyond it
+  float height_ = 0;               // of the triangle
+};
+
+}  // namespace
+
 // Corners are in the coordinates of the frame.
 struct NearestTriangle::Scene {
   std::vector<std::array<Point3, 3>> corners;
+  std::vector<NearPlane> planes;    // of corners[i]
   std::vector<std::uint32_t> face;  // corners[i] are those of this face of the soup
   // Primitives of the hierarchy: the triangles but for the long ones, then the pieces of these.
   std::vector<TrianglePiece> pieces;
@@ -133,6 +169,7 @@ class Nearest final : public Scene::Search {
   }
 
   bool visit(std::uint32_t candidate, float& radius) override {
+    if (scene_.planes[candidate].beyond(p_, radius)) return false;
     const std::array<Point3, 3>& t = scene_.corners[candidate];
     const Point3 nearest = nearest_on_triangle(p_, t[0], t[1], t[2]);
     const double candidate_squared = squared_norm(p_ - nearest);
@@ -203,9 +240,11 @@ NearestTriangle::Scene::Scene(const TriangleSoup& soup) {
     for (const Point3& p : t) box.include(p);
   }
   frame = EmbreeFrame(box);
-  for (std::array<Point3, 3>& t : corners) {
-    for (Point3& p : t) p = frame(p);
-  }
+  planes.resize(corners.size());
+  tbb::parallel_for(std::size_t{0}, corners.size(), [&](std::size_t i) {
+    for (Point3& p : corners[i]) p = frame(p);
+    planes[i] = NearPlane(corners[i]);
+  });
   // No edge longer than an eighth of the box. (Pieces that are smaller still, or more, save no more
   // than they cost, see docs/performance.md.)
   pieces = cut_long_triangles(corners, 0.125, 1U << 14U);

@@ -18,12 +18,13 @@ constexpr double kMostTurn = 0.7;  // cosine of how far the side may turn in a s
 
 }  // namespace
 
-CreaseSlide::CreaseSlide(const TriangleSoup& surface, const Buckets& corners_at,
-                         std::span<const PullTarget> targets, const NearestTriangle& input,
-                         double offset, double distance)
-    : surface_(surface),
+CreaseSlide::CreaseSlide(std::span<const Point3> points, const std::vector<Triangle>& triangles,
+                         const Buckets& corners_at, std::span<const Point3> sides,
+                         const NearestTriangle& input, double offset, double distance)
+    : points_(points),
+      triangles_(triangles),
       corners_at_(corners_at),
-      targets_(targets),
+      sides_(sides),
       input_(input),
       offset_(offset),
       distance_(distance) {}
@@ -32,24 +33,24 @@ CreaseSlide::CreaseSlide(const TriangleSoup& surface, const Buckets& corners_at,
 // across creases, and not one of them: which is chosen among equals would be up to the last bit. In
 // the order of the faces, as the sum depends on it.)
 Point3 CreaseSlide::facing(std::uint32_t vertex) const {
-  if (squared_norm(targets_[vertex].direction) == 0) return {};
+  if (squared_norm(sides_[vertex]) == 0) return {};
   std::vector<std::uint32_t> across;  // corners; almost always none
   for (const std::uint32_t corner : corners_at_[vertex]) {
     if (crosses_crease(vertex, next(corner))) across.push_back(corner);
   }
   std::sort(across.begin(), across.end());
   Point3 sum{};
-  for (const std::uint32_t corner : across) sum = sum + targets_[next(corner)].direction;
+  for (const std::uint32_t corner : across) sum = sum + sides_[next(corner)];
   return sum;
 }
 
 bool CreaseSlide::crosses_crease(std::uint32_t vertex, std::uint32_t other) const {
-  const Point3& a = targets_[vertex].direction;
-  const Point3& b = targets_[other].direction;
+  const Point3& a = sides_[vertex];
+  const Point3& b = sides_[other];
   if (squared_norm(a) == 0 || squared_norm(b) == 0) return false;
   const double cosine = dot(a, b);
   if (cosine > kLeastAngle || cosine < -kLeastAngle) return false;
-  return dot(surface_.points[other] - surface_.points[vertex], b - a) < 0;  // else it is convex
+  return dot(points_[other] - points_[vertex], b - a) < 0;  // else it is convex
 }
 
 Point3 CreaseSlide::operator()(std::uint32_t vertex, const Point3& to) const {
@@ -61,7 +62,7 @@ Point3 CreaseSlide::operator()(std::uint32_t vertex, const Point3& to) const {
   // The whole way first.
   constexpr int kMostSteps = static_cast<int>(kLongest / kStep);
   std::array<Footing, kMostSteps + 1> way;
-  way[0] = {to, targets_[vertex].direction};
+  way[0] = {to, sides_[vertex]};
   int steps = 0;
   while (steps < kMostSteps) {
     const std::optional<Footing> next = step_down(way[steps], direction, step);
@@ -91,7 +92,7 @@ std::optional<CreaseSlide::Footing> CreaseSlide::step_down(const Footing& from,
   if (dot(side, from.side) < kMostTurn) return std::nullopt;
   const Point3 place = nearest.point + distance_ * side;
   if (input_.may_separate(from.place, place)) return std::nullopt;
-  if (input_(place, 2 * distance_).distance < 0.5 * distance_) return std::nullopt;
+  if (input_(place, 0.5 * distance_).found()) return std::nullopt;
   return Footing{place, side};
 }
 

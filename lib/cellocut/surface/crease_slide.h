@@ -4,18 +4,13 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "cellocut/measure/nearest_triangle.h"
 #include "cellocut/mesh/triangle_soup.h"
 #include "cellocut/validity/buckets.h"
 
 namespace cellocut {
-
-// Where a supported vertex is pulled to: some way from its nearest point on the input.
-struct PullTarget {
-  Point3 nearest;    // on the input
-  Point3 direction;  // from there to the vertex, of length 1; 0 where it stays
-};
 
 // In a concave corner, groove or slot of the input the surface before the pull has a crease, at
 // `offset` from both sides. The vertices next to it are pulled to different sides, and between them
@@ -24,12 +19,13 @@ struct PullTarget {
 // crease's neighbourhood keeps its order, and the bevel shrinks.
 class CreaseSlide {
  public:
-  // `surface`: before the pull; corners_at: its corners_by_point() (incidence.h); targets: by
-  // vertex; `offset`: the distance of supported vertices from the input now, about, and `distance`
-  // that which the pull leaves. All of them must outlive this.
-  CreaseSlide(const TriangleSoup& surface, const Buckets& corners_at,
-              std::span<const PullTarget> targets, const NearestTriangle& input, double offset,
-              double distance);
+  // `points`: before the pull; corners_at: corners_by_point() of the triangles (incidence.h);
+  // `sides`: by vertex, the direction from its nearest point on the input to it, of length 1, and 0
+  // where it stays; `offset`: the distance of supported vertices from the input now, about, and
+  // `distance` that which the pull leaves. All of them must outlive this.
+  CreaseSlide(std::span<const Point3> points, const std::vector<Triangle>& triangles,
+              const Buckets& corners_at, std::span<const Point3> sides,
+              const NearestTriangle& input, double offset, double distance);
 
   // Where the vertex slides from `to`, its place after the pull; `to` itself where it is not at a
   // crease. It goes at most twice `offset`, keeps to its side, at `distance` from it, and away from
@@ -44,18 +40,19 @@ class CreaseSlide {
 
   // The vertex that the edge from a corner, as corners_at has it, leads to.
   [[nodiscard]] std::uint32_t next(std::uint32_t corner) const {
-    return surface_.triangles[corner / 3][(corner % 3 + 1) % 3];
+    return triangles_[corner / 3][(corner % 3 + 1) % 3];
   }
-  // The sum of the directions of neighbours across concave creases; 0: there is none.
+  // The sum of the sides of neighbours across concave creases; 0: there is none.
   [[nodiscard]] Point3 facing(std::uint32_t vertex) const;
   // Whether the way from a vertex to another one leads across a concave crease.
   [[nodiscard]] bool crosses_crease(std::uint32_t vertex, std::uint32_t other) const;
   [[nodiscard]] std::optional<Footing> step_down(const Footing& from, const Point3& facing,
                                                  double step) const;
 
-  const TriangleSoup& surface_;
+  std::span<const Point3> points_;
+  const std::vector<Triangle>& triangles_;
   const Buckets& corners_at_;
-  std::span<const PullTarget> targets_;
+  std::span<const Point3> sides_;
   const NearestTriangle& input_;
   double offset_;
   double distance_;

@@ -20,7 +20,7 @@ LiveFaces::LiveFaces(const std::vector<Point3>& points, const std::vector<Triang
       frame_(bounding_box(points, faces)),
       count_(faces.size()),
       tree_(faces.size(), [&](std::uint32_t f) { return box_of(faces[f]); }),
-      place_(faces.size()) {
+      place_(std::make_unique_for_overwrite<std::uint32_t[]>(faces.size())) {
   note_places();
 }
 

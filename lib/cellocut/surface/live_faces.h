@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "cellocut/mesh/triangle_soup.h"
@@ -50,7 +51,7 @@ class LiveFaces {
   FloatFrame frame_;
   std::size_t count_ = 0;
   BoxTree tree_;
-  std::vector<std::uint32_t> place_;  // in the tree; kGone for those that are no more
+  std::unique_ptr<std::uint32_t[]> place_;  // in the tree; kGone for those that are no more
 };
 
 }  // namespace cellocut

@@ -1,6 +1,8 @@
 #include "cellocut/surface/pull.h"
 
+#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_reduce.h>
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +15,27 @@
 
 namespace cellocut {
 
-Quantiles quantiles_of(std::vector<double> values) {
+namespace {
+
+// What became of supported vertices.
+struct Outcome {
+  std::int64_t supported = 0;
+  std::int64_t shifted = 0;
+  std::int64_t stopped_early = 0;
+  std::int64_t went_back = 0;
+
+  Outcome& operator+=(const Outcome& other) {
+    supported += other.supported;
+    shifted += other.shifted;
+    stopped_early += other.stopped_early;
+    went_back += other.went_back;
+    return *this;
+  }
+};
+
+}  // namespace
+
+Quantiles quantiles_of(std::span<double> values) {
   if (values.empty()) return {};
   auto begin = values.begin();  // what ranks below the last one lies before
   const auto at = [&](double share) {
@@ -29,58 +51,64 @@ PullReport pull_to_input(TriangleSoup& surface, const std::vector<std::uint8_t>&
                          const NearestTriangle& input, double expected, double distance,
                          Observer& observer) {
   const std::size_t count = surface.points.size();
-  PullReport report;
-  report.distance = distance;
-  report.vertices = static_cast<std::int64_t>(count);
-
   // (Memory that the threads touch first, each its part.)
-  const auto targets = std::make_unique_for_overwrite<PullTarget[]>(count);
-  std::vector<double> offset(count, 0);
+  const auto from = std::make_unique_for_overwrite<Point3[]>(count);
+  const auto to = std::make_unique_for_overwrite<Point3[]>(count);
+  const auto sides = std::make_unique_for_overwrite<Point3[]>(count);
+  const auto offset = std::make_unique_for_overwrite<double[]>(count);
   tbb::parallel_for(std::size_t{0}, count, [&](std::size_t v) {
-    targets[v] = {};
+    from[v] = surface.points[v];
+    to[v] = from[v];
+    sides[v] = {};
+    offset[v] = 0;
     if (supported[v] == 0) return;
-    const Point3& from = surface.points[v];
-    NearestPoint nearest = input(from, 1.25 * expected);
-    if (!nearest.found()) nearest = input(from);
+    NearestPoint nearest = input(from[v], 1.25 * expected);
+    if (!nearest.found()) nearest = input(from[v]);
     offset[v] = nearest.distance;
     if (!(nearest.distance > distance)) return;
-    targets[v] = {nearest.point, (1 / nearest.distance) * (from - nearest.point)};
+    sides[v] = (1 / nearest.distance) * (from[v] - nearest.point);
+    to[v] = nearest.point + distance * sides[v];
     offset[v] = distance;
   });
   const Buckets corners_at = corners_by_point(surface.triangles, count);
-  const CreaseSlide slide(surface, corners_at, {targets.get(), count}, input, expected, distance);
-  const auto to = std::make_unique_for_overwrite<Point3[]>(count);
-  std::vector<Point3> beyond(count);
+  const CreaseSlide slide({from.get(), count}, surface.triangles, corners_at, {sides.get(), count},
+                          input, expected, distance);
   tbb::parallel_for(std::size_t{0}, count, [&](std::size_t v) {
-    const PullTarget& target = targets[v];
-    to[v] = squared_norm(target.direction) == 0 ? surface.points[v]
-                                                : target.nearest + distance * target.direction;
-    beyond[v] = slide(static_cast<std::uint32_t>(v), to[v]);
+    surface.points[v] = slide(static_cast<std::uint32_t>(v), to[v]);
   });
   observer.check();
-  Retreat moved = move_vertices(surface.points, {to.get(), count}, std::move(beyond),
+  Retreat moved = move_vertices({from.get(), count}, {to.get(), count}, std::move(surface.points),
                                 surface.triangles, corners_at, observer);
-  report.bad_faces_at_first = moved.bad_faces_at_first;
-  report.rounds = moved.rounds;
+  const Outcome outcome = tbb::parallel_reduce(
+      tbb::blocked_range<std::size_t>(0, count), Outcome{},
+      [&](const auto& range, Outcome sum) {
+        for (std::size_t v = range.begin(); v < range.end(); ++v) {
+          if (supported[v] == 0) continue;
+          const bool shifted = moved.is_beyond(v, to[v]);
+          if (shifted || moved.halvings[v] > 0) offset[v] = input(moved.points[v]).distance;
+          sum += {.supported = 1,
+                  .shifted = shifted,
+                  .stopped_early = moved.halvings[v] > 0 && moved.halvings[v] < Retreat::kStayed,
+                  .went_back = moved.halvings[v] == Retreat::kStayed};
+        }
+        return sum;
+      },
+      [](Outcome a, const Outcome& b) { return a += b; });
+  surface.points = std::move(moved.points);
 
-  const auto shifted = [&](std::size_t v) { return moved.is_beyond(v, to[v]); };
-  tbb::parallel_for(std::size_t{0}, count, [&](std::size_t v) {
-    const bool as_asked = moved.halvings[v] == 0 && !shifted(v);
-    if (supported[v] != 0 && !as_asked) offset[v] = input(moved.points[v]).distance;
-  });
   std::size_t kept = 0;  // of `offset`, those of supported vertices
   for (std::size_t v = 0; v < count; ++v) {
-    if (supported[v] == 0) continue;
-    if (shifted(v)) ++report.shifted;
-    if (moved.halvings[v] == Retreat::kStayed) ++report.went_back;
-    if (moved.halvings[v] > 0 && moved.halvings[v] < Retreat::kStayed) ++report.stopped_early;
-    offset[kept++] = offset[v];
+    if (supported[v] != 0) offset[kept++] = offset[v];
   }
-  surface.points = std::move(moved.points);
-  report.supported = static_cast<std::int64_t>(kept);
-  offset.resize(kept);
-  report.offset = quantiles_of(std::move(offset));
-  return report;
+  return {.distance = distance,
+          .vertices = static_cast<std::int64_t>(count),
+          .supported = outcome.supported,
+          .shifted = outcome.shifted,
+          .stopped_early = outcome.stopped_early,
+          .went_back = outcome.went_back,
+          .bad_faces_at_first = moved.bad_faces_at_first,
+          .rounds = moved.rounds,
+          .offset = quantiles_of({offset.get(), kept})};
 }
 
 }  // namespace cellocut

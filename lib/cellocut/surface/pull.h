@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "cellocut/base/observer.h"
@@ -15,8 +16,8 @@ struct Quantiles {
   double p95 = 0;
   double largest = 0;
 };
-// By rank, the lower of two in the middle. All 0 where there are no values. O(n).
-Quantiles quantiles_of(std::vector<double> values);
+// By rank, the lower of two in the middle. All 0 where there are no values. Reorders them. O(n).
+Quantiles quantiles_of(std::span<double> values);
 
 struct PullReport {
   double distance = 0;  // asked for, in input units
@@ -36,7 +37,7 @@ struct PullReport {
 // further, towards the bottom of the crease (crease_slide.h). Vertices retreat (retreat.h) where
 // the surface would not stay valid. `expected` is how far supported vertices are from the input,
 // about (the search begins there). Precondition: the surface is valid. O(n log n). Errors:
-// Cancelled.
+// Cancelled, and then the surface has lost its points.
 PullReport pull_to_input(TriangleSoup& surface, const std::vector<std::uint8_t>& supported,
                          const NearestTriangle& input, double expected, double distance,
                          Observer& observer);

@@ -35,7 +35,7 @@ void join(std::vector<T>& values, const std::vector<T>& more) {
 
 class Movement {
  public:
-  Movement(const std::vector<Point3>& from, std::span<const Point3> to, std::vector<Point3> beyond,
+  Movement(std::span<const Point3> from, std::span<const Point3> to, std::vector<Point3> beyond,
            const std::vector<Triangle>& triangles, const Buckets& corners_at, Observer& observer)
       : from_(from), to_(to), triangles_(triangles), corners_at_(corners_at), observer_(observer) {
     result_.points = std::move(beyond);
@@ -44,15 +44,21 @@ class Movement {
   }
 
   Retreat run() {
-    const Indices moved = moved_faces();
-    if (moved.empty()) return std::move(result_);
+    const std::vector<std::uint8_t> moves = which_faces_move();
+    const auto moving = static_cast<std::size_t>(std::count(moves.begin(), moves.end(), 1));
+    if (moving == 0) return std::move(result_);
     LiveFaces live(result_.points, triangles_);
     observer_.check();
-    Pairs bad = hide_degenerate(moved, live);
-    // Where most of the mesh moves, one search for all pairs is the quicker way.
-    if (moved.size() > triangles_.size() / 4) {
+    Pairs bad;
+    if (moving > triangles_.size() / 4) {  // one search for all pairs is the quicker way
+      bad = hide_degenerate(live.tree().ids(), live);
       join(bad, intersecting(live));
     } else {
+      Indices moved;
+      for (std::uint32_t f = 0; f < triangles_.size(); ++f) {
+        if (moves[f] != 0) moved.push_back(f);
+      }
+      bad = hide_degenerate(moved, live);
       join(bad, intersecting_among(moved, live));
     }
     if (bad.empty()) return std::move(result_);
@@ -72,7 +78,8 @@ class Movement {
   }
 
  private:
-  [[nodiscard]] Indices moved_faces() const {
+  // By face, 1 or 0.
+  [[nodiscard]] std::vector<std::uint8_t> which_faces_move() const {
     std::vector<std::uint8_t> moved(from_.size());
     tbb::parallel_for(std::size_t{0}, from_.size(),
                       [&](std::size_t v) { moved[v] = from_[v] != result_.points[v] ? 1 : 0; });
@@ -81,12 +88,7 @@ class Movement {
       const Triangle& t = triangles_[f];
       moves[f] = moved[t[0]] | moved[t[1]] | moved[t[2]];
     });
-    Indices faces;
-    faces.reserve(triangles_.size());
-    for (std::uint32_t f = 0; f < triangles_.size(); ++f) {
-      if (moves[f] != 0) faces.push_back(f);
-    }
-    return faces;
+    return moves;
   }
 
   [[nodiscard]] bool degenerate(std::uint32_t face) const {
@@ -95,7 +97,7 @@ class Movement {
   }
 
   // The degenerate ones of the faces, each paired with itself; the search finds them no more.
-  [[nodiscard]] Pairs hide_degenerate(const Indices& faces, LiveFaces& live) const {
+  [[nodiscard]] Pairs hide_degenerate(std::span<const std::uint32_t> faces, LiveFaces& live) const {
     std::vector<std::uint8_t> is(faces.size());
     tbb::parallel_for(std::size_t{0}, faces.size(),
                       [&](std::size_t i) { is[i] = degenerate(faces[i]) ? 1 : 0; });
@@ -214,7 +216,7 @@ class Movement {
     return faces;
   }
 
-  const std::vector<Point3>& from_;
+  std::span<const Point3> from_;
   std::span<const Point3> to_;
   const std::vector<Triangle>& triangles_;
   const Buckets& corners_at_;
@@ -224,7 +226,7 @@ class Movement {
 
 }  // namespace
 
-Retreat move_vertices(const std::vector<Point3>& from, std::span<const Point3> to,
+Retreat move_vertices(std::span<const Point3> from, std::span<const Point3> to,
                       std::vector<Point3> beyond, const std::vector<Triangle>& triangles,
                       const Buckets& corners_at, Observer& observer) {
   return Movement(from, to, std::move(beyond), triangles, corners_at, observer).run();

@@ -42,7 +42,7 @@ struct Retreat {
 //
 // Preconditions: the mesh is valid at `from`; the three have the same size, all finite. The same
 // for any number of threads. O(n log n + rounds * faces that were bad). Errors: Cancelled.
-Retreat move_vertices(const std::vector<Point3>& from, std::span<const Point3> to,
+Retreat move_vertices(std::span<const Point3> from, std::span<const Point3> to,
                       std::vector<Point3> beyond, const std::vector<Triangle>& triangles,
                       const Buckets& corners_at, Observer& observer);
 

@@ -50,12 +50,22 @@ std::vector<std::uint32_t> numbers_below(std::size_t count) {
 template <class BoxAt>
 BoxTree::Level BoxTree::level_above(std::size_t below, const BoxAt& box_at) {
   Level level((below + kSize - 1) / kSize);
-  tbb::parallel_for(std::size_t{0}, level.size, [&](std::size_t node) {
-    for (std::size_t i = 0; i < kSize; ++i) {
-      const std::size_t place = kSize * node + i;
-      level[node].set(i, place < below ? box_at(place) : FloatBox::none());
-    }
-  });
+  // (Summed in fixed parts: the same for any number of threads.)
+  level.squared_edges = tbb::parallel_deterministic_reduce(
+      tbb::blocked_range<std::size_t>(0, level.size, 1024), 0.0,
+      [&](const auto& range, double sum) {
+        for (std::size_t node = range.begin(); node < range.end(); ++node) {
+          for (std::size_t i = 0; i < kSize; ++i) {
+            const std::size_t place = kSize * node + i;
+            const FloatBox box = place < below ? box_at(place) : FloatBox::none();
+            level[node].set(i, box);
+            const double edge = std::max(0.0F, box.longest_edge());
+            sum += edge * edge;
+          }
+        }
+        return sum;
+      },
+      std::plus<>());
   return level;
 }
 
@@ -102,26 +112,9 @@ bool BoxTree::is_compact() const {
   constexpr double kMostOnAverage = 5;
   double above = 0;
   for (std::size_t level = 1; level < levels_.size(); ++level)
-    above += squared_edges(levels_[level]);
+    above += levels_[level].squared_edges;
   return above <=
-         kMostOnAverage * static_cast<double>(levels_.size() - 1) * squared_edges(levels_[0]);
-}
-
-// (Summed in fixed parts: the same for any number of threads.)
-double BoxTree::squared_edges(const Level& level) {
-  const tbb::blocked_range<std::size_t> nodes(0, level.size, 1024);
-  return tbb::parallel_deterministic_reduce(
-      nodes, 0.0,
-      [&level](const auto& range, double sum) {
-        for (std::size_t node = range.begin(); node < range.end(); ++node) {
-          for (std::size_t i = 0; i < kSize; ++i) {
-            const double edge = std::max(0.0F, level[node][i].longest_edge());
-            sum += edge * edge;
-          }
-        }
-        return sum;
-      },
-      std::plus<>());
+         kMostOnAverage * static_cast<double>(levels_.size() - 1) * levels_[0].squared_edges;
 }
 
 void BoxTree::replace(std::size_t place, const FloatBox& box) {

@@ -215,6 +215,7 @@ class BoxTree {
   struct Level {
     std::size_t size;
     std::unique_ptr<EightBoxes[]> nodes;
+    double squared_edges = 0;  // of the longest edge of each box, their sum
 
     explicit Level(std::size_t count)
         : size(count), nodes(std::make_unique_for_overwrite<EightBoxes[]>(count)) {}
@@ -231,8 +232,6 @@ class BoxTree {
 
   // Whether the boxes are in an order good enough to search.
   [[nodiscard]] bool is_compact() const;
-  // Of the longest edges of all boxes in the nodes of a level.
-  static double squared_edges(const Level& level);
 
   std::vector<std::uint32_t> ids_;  // in the order of the leaves
   // Child c of node i on level k: on level 0 the box at place 8 i + c, above it node 8 i + c of

@@ -6,6 +6,7 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -29,7 +30,7 @@ class Buckets {
       end += entry;
       entry = end;
     }
-    items_.resize(end);
+    items_ = std::make_unique_for_overwrite<std::uint32_t[]>(end);
     // Filling from the back turns each end into the begin of its bucket.
     tbb::parallel_for(std::size_t{0}, items, [&](std::size_t i) {
       if (const std::uint32_t key = key_of(i); key != kNoBucket) {
@@ -40,10 +41,10 @@ class Buckets {
 
   [[nodiscard]] std::size_t size() const { return begin_.size() - 1; }
   [[nodiscard]] std::span<std::uint32_t> operator[](std::size_t bucket) {
-    return {items_.data() + begin_[bucket], items_.data() + begin_[bucket + 1]};
+    return {items_.get() + begin_[bucket], items_.get() + begin_[bucket + 1]};
   }
   [[nodiscard]] std::span<const std::uint32_t> operator[](std::size_t bucket) const {
-    return {items_.data() + begin_[bucket], items_.data() + begin_[bucket + 1]};
+    return {items_.get() + begin_[bucket], items_.get() + begin_[bucket + 1]};
   }
 
  private:
@@ -55,7 +56,7 @@ class Buckets {
   }
 
   std::vector<std::uint32_t> begin_;
-  std::vector<std::uint32_t> items_;
+  std::unique_ptr<std::uint32_t[]> items_;  // memory that the threads touch first
 };
 
 }  // namespace cellocut

@@ -102,6 +102,12 @@ std::vector<std::vector<std::uint32_t>> size_classes(const std::vector<std::uint
   return classes;
 }
 
+// Two faces whose boxes overlap, one by its place in a leaf.
+struct Candidate {
+  std::uint32_t place;
+  std::uint32_t other;
+};
+
 class Search {
  public:
   Search(const std::vector<Point3>& points, const std::vector<Triangle>& triangles,
@@ -221,17 +227,28 @@ void visit_intersecting_pairs(const BoxTree& tree, const std::vector<Point3>& po
                               const std::function<void(std::size_t)>& done) {
   const tbb::blocked_range<std::size_t> leaves(0, tree.leaf_count(), 64);
   tbb::parallel_for(leaves, [&](const auto& range) {
+    std::vector<Candidate> candidates;
     std::vector<std::optional<PreparedFace>> prepared;
     for (std::size_t leaf = range.begin(); leaf < range.end(); ++leaf) {
       const std::span<const std::uint32_t> faces = tree.ids_of_leaf(leaf);
-      prepared.assign(faces.size(), std::nullopt);
+      candidates.clear();
       tree.visit_pairs_of_leaf(leaf, [&](std::size_t place, std::uint32_t other) {
-        const Triangle& face = triangles[faces[place]];
-        if (stars.settle(face, triangles[other])) return;
-        if (!prepared[place]) prepared[place].emplace(points, face);
-        if (prepared[place]->certainly_apart(points, triangles[other])) return;
-        if (faces_intersect(points, face, triangles[other])) found(faces[place], other);
+        candidates.push_back({static_cast<std::uint32_t>(place), other});
       });
+      // About every second pair is settled here, which no processor foresees: so no branch.
+      auto open = candidates.begin();
+      for (const Candidate& pair : candidates) {
+        *open = pair;
+        open += stars.settle(triangles[faces[pair.place]], triangles[pair.other]) ? 0 : 1;
+      }
+      candidates.erase(open, candidates.end());
+      prepared.assign(faces.size(), std::nullopt);
+      for (const auto& [place, other] : candidates) {
+        const Triangle& face = triangles[faces[place]];
+        if (!prepared[place]) prepared[place].emplace(points, face);
+        if (prepared[place]->certainly_apart(points, triangles[other])) continue;
+        if (faces_intersect(points, face, triangles[other])) found(faces[place], other);
+      }
     }
     done(range.size());
   });

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <iterator>
 #include <numeric>
 #include <stdexcept>
@@ -65,24 +66,28 @@ Change change_of(const Piece& piece, const Lambda& lambda, const InterfaceAreas&
   return change;
 }
 
+double ratio(std::int64_t a, std::int64_t b) {
+  return static_cast<double>(a) / static_cast<double>(b);
+}
+
+void remember_flow(Piece& piece, const WideCut& cut, const Lambda& lambda) {
+  piece.flow_at = lambda;
+  piece.flow.assign(cut.edge_flow.begin(), cut.edge_flow.end());
+}
+
 WideCut PathSearch::solve(const Piece& piece, const Lambda& lambda) {
-  // Edges between free cells carry p times their unsupported area at most, whatever the lambda: a
-  // flow at another one fits, but for what the terminals bring.
-  std::vector<double> start = piece.flow;
-  for (double& flow : start) flow *= static_cast<double>(lambda.p);
+  // A flow at another lambda fits when it is scaled like what does not gain on the rest: supported
+  // areas where lambda grows, the others where it falls. More can then flow, and nothing less.
+  const double scale =
+      piece.flow_at < lambda ? ratio(lambda.q, piece.flow_at.q) : ratio(lambda.p, piece.flow_at.p);
+  std::vector<double> start(piece.flow.size());
+  std::transform(piece.flow.begin(), piece.flow.end(), start.begin(),
+                 [scale](double flow) { return scale * flow; });
   WideCut cut = solve_wide(at_lambda(piece.problem, lambda), solver_, observer_, start);
   ++solves_;
   digits_ += cut.digits;
   solved_nodes_ += static_cast<std::int64_t>(piece.problem.node_count());
   return cut;
-}
-
-std::vector<double> flow_by_area(const WideCut& cut, const Lambda& lambda) {
-  std::vector<double> flow(cut.edge_flow.size());
-  std::transform(cut.edge_flow.begin(), cut.edge_flow.end(), flow.begin(), [&](Wide amount) {
-    return static_cast<double>(amount) / static_cast<double>(lambda.p);
-  });
-  return flow;
 }
 
 // Where to divide a range: at the crossing, which may be a breakpoint; but first at a simple
@@ -115,7 +120,7 @@ std::vector<Change> PathSearch::divide_connected(Piece piece, const LambdaInterv
   if (lambda == both && cut.value == cost_at(before, lambda)) {
     return {change_of(piece, lambda, before, after, std::move(cut))};
   }
-  piece.flow = flow_by_area(cut, lambda);
+  remember_flow(piece, cut, lambda);
   const CutLabels none(problem.node_count(), 0);
   const CutLabels all(problem.node_count(), 1);
   const CutLabels& smallest = cut.smallest_source_side;
@@ -178,13 +183,23 @@ FillPath PathSearch::run(const ParametricProblem& problem, const Lambda& first,
               std::vector<std::uint32_t>(problem.edges.size()),
               {},
               {},
+              {},
               {}};
   std::iota(whole.node.begin(), whole.node.end(), 0U);
   std::iota(whole.edge.begin(), whole.edge.end(), 0U);
   WideCut begin;
   WideCut end;
   tbb::parallel_invoke([&] { begin = solve(whole, first); }, [&] { end = solve(whole, last); });
-  whole.flow = flow_by_area(end, last);
+  const InterfaceAreas most = areas_of(problem, begin.smallest_source_side);
+  const InterfaceAreas least = areas_of(problem, end.largest_source_side);
+  // What comes next is near where the lines of both cross.
+  const bool near_begin = !(most == least) && to_double(crossing(most, least)) <
+                                                  std::sqrt(to_double(first) * to_double(last));
+  if (near_begin) {
+    remember_flow(whole, begin, first);
+  } else {
+    remember_flow(whole, end, last);
+  }
   changes_ = divide(contract(whole, end.smallest_source_side, begin.largest_source_side,
                              begin.smallest_source_side, end.largest_source_side),
                     {first, last});
@@ -192,8 +207,8 @@ FillPath PathSearch::run(const ParametricProblem& problem, const Lambda& first,
   path_.digits = digits_;
   path_.solved_nodes = solved_nodes_;
   path_.level.assign(problem.node_count(), 0);
-  find_breakpoints(areas_of(problem, begin.smallest_source_side));
-  if (!(path_.areas.back() == areas_of(problem, end.largest_source_side))) {
+  find_breakpoints(most);
+  if (!(path_.areas.back() == least)) {
     throw std::logic_error("fill path: what changes is not what lies between the ends");
   }
   const auto count = static_cast<std::uint32_t>(path_.areas.size());

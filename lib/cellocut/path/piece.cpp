@@ -12,6 +12,7 @@ Piece contract(const Piece& piece, const CutLabels& lower, const CutLabels& uppe
   constexpr std::uint32_t kOut = 0xFFFFFFFFU;
   const ParametricProblem& whole = piece.problem;
   Piece result;
+  result.flow_at = piece.flow_at;
   ParametricProblem& part = result.problem;
   std::vector<std::uint32_t> place(whole.node_count());
   for (std::uint32_t i = 0; i < whole.node_count(); ++i) {
@@ -75,6 +76,7 @@ std::vector<Piece> connected_parts(Piece piece) {
     result[0] = std::move(piece);
     return result;
   }
+  for (Piece& part : result) part.flow_at = piece.flow_at;
   std::vector<std::uint32_t> place(problem.node_count());
   for (std::uint32_t i = 0; i < place.size(); ++i) {
     Piece& part = result[parts.of_node[i]];

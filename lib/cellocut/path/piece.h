@@ -17,8 +17,8 @@ struct Piece {
   std::vector<std::uint32_t> edge;  // likewise
   CutLabels before;                 // a minimum next to the beginning of the range
   CutLabels after;                  // and next to its end
-  // Per edge, about its flow at a lambda nearby, in units of unsupported area; or empty.
-  std::vector<double> flow;
+  std::vector<double> flow;  // per edge, about its flow at the lambda `flow_at`; or empty
+  Lambda flow_at;
 };
 
 // The nodes of `upper` that are not in `lower`. Areas of two labellings of the new piece differ as

@@ -1,10 +1,11 @@
 #include "cellocut/complex/tet_complex.h"
 
+#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
-#include <tbb/parallel_sort.h>
 
 #include <algorithm>
 
+#include "cellocut/base/buckets.h"
 #include "cellocut/base/errors.h"
 
 namespace cellocut {
@@ -66,28 +67,25 @@ double cell_volume(const TetComplex& complex, std::uint32_t cell) {
          6;
 }
 
-TetComplex make_canonical(std::vector<Point3> points,
-                          std::vector<std::array<std::uint32_t, 4>> cells,
-                          std::vector<std::uint32_t> first_copy) {
-  tbb::parallel_for(std::size_t{0}, cells.size(), [&](std::size_t c) { sort_corners(cells[c]); });
-  tbb::parallel_sort(cells.begin(), cells.end(),
-                     [](const auto& a, const auto& b) { return ascending(a) < ascending(b); });
+namespace {
 
-  TetComplex complex;
-  complex.points = std::move(points);
-  complex.cells = std::move(cells);
-  complex.first_copy = std::move(first_copy);
-
-  // Equal facets meet after sorting.
-  std::vector<FacetKey> facets(4 * complex.cells.size());
-  tbb::parallel_for(std::size_t{0}, complex.cells.size(), [&](std::size_t c) {
-    for (int k = 0; k < 4; ++k) {
-      facets[4 * c + k] = {facet_corners(complex, static_cast<std::uint32_t>(c), k),
-                           static_cast<std::uint32_t>(4 * c + k)};
-    }
+// In the order of their ascending corners. (By the first of them: each point has a few such cells.)
+std::vector<std::array<std::uint32_t, 4>> sorted(
+    const std::vector<std::array<std::uint32_t, 4>>& cells, std::size_t points) {
+  const Buckets by_first(points, cells.size(), [&](std::size_t c) { return cells[c][0]; });
+  std::vector<std::array<std::uint32_t, 4>> result(cells.size());
+  tbb::parallel_for(std::size_t{0}, points, [&](std::size_t point) {
+    const auto begin = result.begin() + static_cast<std::ptrdiff_t>(by_first.begin(point));
+    auto end = begin;
+    for (const std::uint32_t c : by_first[point]) *end++ = cells[c];
+    std::sort(begin, end, [](const auto& a, const auto& b) { return ascending(a) < ascending(b); });
   });
-  tbb::parallel_sort(facets.begin(), facets.end());
-  complex.neighbours.assign(complex.cells.size(), {kOutside, kOutside, kOutside, kOutside});
+  return result;
+}
+
+// Precondition: the facets are sorted, so that equal ones are next to each other.
+void link(const std::vector<FacetKey>& facets,
+          std::vector<std::array<std::int32_t, 4>>& neighbours) {
   for (std::size_t f = 0; f + 1 < facets.size(); ++f) {
     if (facets[f].corners != facets[f + 1].corners) continue;
     if (f + 2 < facets.size() && facets[f].corners == facets[f + 2].corners) {
@@ -95,9 +93,40 @@ TetComplex make_canonical(std::vector<Point3> points,
     }
     const std::uint32_t a = facets[f].side;
     const std::uint32_t b = facets[f + 1].side;
-    complex.neighbours[a / 4][a % 4] = static_cast<std::int32_t>(b / 4);
-    complex.neighbours[b / 4][b % 4] = static_cast<std::int32_t>(a / 4);
+    neighbours[a / 4][a % 4] = static_cast<std::int32_t>(b / 4);
+    neighbours[b / 4][b % 4] = static_cast<std::int32_t>(a / 4);
   }
+}
+
+}  // namespace
+
+TetComplex make_canonical(std::vector<Point3> points,
+                          std::vector<std::array<std::uint32_t, 4>> cells,
+                          std::vector<std::uint32_t> first_copy) {
+  tbb::parallel_for(std::size_t{0}, cells.size(), [&](std::size_t c) { sort_corners(cells[c]); });
+  TetComplex complex;
+  complex.points = std::move(points);
+  complex.cells = sorted(cells, complex.points.size());
+  complex.first_copy = std::move(first_copy);
+  complex.neighbours.assign(complex.cells.size(), {kOutside, kOutside, kOutside, kOutside});
+
+  // The two sides of a facet have the same smallest corner.
+  const Buckets by_smallest(complex.points.size(), 4 * complex.cells.size(), [&](std::size_t side) {
+    const std::array<std::uint32_t, 4>& corners = complex.cells[side / 4];
+    return side % 4 == 0 ? corners[1] : corners[0];
+  });
+  const tbb::blocked_range<std::size_t> all(0, complex.points.size(), 64);
+  tbb::parallel_for(all, [&](const auto& range) {
+    std::vector<FacetKey> facets;
+    for (std::size_t point = range.begin(); point < range.end(); ++point) {
+      facets.clear();
+      for (const std::uint32_t side : by_smallest[point]) {
+        facets.push_back({facet_corners(complex, side / 4, static_cast<int>(side % 4)), side});
+      }
+      std::sort(facets.begin(), facets.end());
+      link(facets, complex.neighbours);
+    }
+  });
   return complex;
 }
 

@@ -6,9 +6,9 @@
 #include <span>
 #include <vector>
 
+#include "cellocut/base/buckets.h"
 #include "cellocut/measure/nearest_triangle.h"
 #include "cellocut/mesh/triangle_soup.h"
-#include "cellocut/validity/buckets.h"
 
 namespace cellocut {
 

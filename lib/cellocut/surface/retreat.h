@@ -5,9 +5,9 @@
 #include <span>
 #include <vector>
 
+#include "cellocut/base/buckets.h"
 #include "cellocut/base/observer.h"
 #include "cellocut/mesh/triangle_soup.h"
-#include "cellocut/validity/buckets.h"
 
 namespace cellocut {
 

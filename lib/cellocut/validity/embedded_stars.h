@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "cellocut/base/buckets.h"
 #include "cellocut/mesh/triangle_soup.h"
-#include "cellocut/validity/buckets.h"
 
 namespace cellocut {
 

@@ -11,7 +11,7 @@
 #include <numeric>
 #include <span>
 
-#include "cellocut/validity/buckets.h"
+#include "cellocut/base/buckets.h"
 #include "cellocut/validity/fan.h"
 
 namespace cellocut {

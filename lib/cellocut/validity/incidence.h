@@ -14,9 +14,9 @@
 #include <cstdint>
 #include <vector>
 
+#include "cellocut/base/buckets.h"
 #include "cellocut/base/observer.h"
 #include "cellocut/mesh/triangle_soup.h"
-#include "cellocut/validity/buckets.h"
 #include "cellocut/validity/surface_report.h"
 
 namespace cellocut {

@@ -7,7 +7,7 @@
 #include <bit>
 #include <cmath>
 
-#include "cellocut/validity/buckets.h"
+#include "cellocut/base/buckets.h"
 
 namespace cellocut {
 

@@ -40,6 +40,8 @@ class Buckets {
   }
 
   [[nodiscard]] std::size_t size() const { return begin_.size() - 1; }
+  // How many items lie in the buckets before this one.
+  [[nodiscard]] std::size_t begin(std::size_t bucket) const { return begin_[bucket]; }
   [[nodiscard]] std::span<std::uint32_t> operator[](std::size_t bucket) {
     return {items_.get() + begin_[bucket], items_.get() + begin_[bucket + 1]};
   }

@@ -17,7 +17,7 @@ struct Piece {
   std::vector<std::uint32_t> edge;  // likewise
   CutLabels before;                 // a minimum next to the beginning of the range
   CutLabels after;                  // and next to its end
-  std::vector<double> flow;  // per edge, about its flow at the lambda `flow_at`; or empty
+  std::vector<double> flow;         // per edge, about its flow at the lambda `flow_at`; or empty
   Lambda flow_at;
 };
 

@@ -76,13 +76,13 @@ void remember_flow(Piece& piece, const WideCut& cut, const Lambda& lambda) {
 }
 
 WideCut PathSearch::solve(const Piece& piece, const Lambda& lambda) {
-  // A flow at another lambda fits when it is scaled like what does not gain on the rest: supported
-  // areas where lambda grows, the others where it falls. More can then flow, and nothing less.
-  const double scale =
-      piece.flow_at < lambda ? ratio(lambda.q, piece.flow_at.q) : ratio(lambda.p, piece.flow_at.p);
-  std::vector<double> start(piece.flow.size());
-  std::transform(piece.flow.begin(), piece.flow.end(), start.begin(),
-                 [scale](double flow) { return scale * flow; });
+  // Capacities are q times supported and p times unsupported area. A flow at another lambda obeys
+  // them when it is scaled as q is where lambda has grown, and as p is where it has fallen: what
+  // the other area adds to a capacity, so scaled, can only have grown.
+  const Lambda& at = piece.flow_at;
+  const double scale = at < lambda ? ratio(lambda.q, at.q) : ratio(lambda.p, at.p);
+  std::vector<double> start = piece.flow;
+  for (double& flow : start) flow *= scale;
   WideCut cut = solve_wide(at_lambda(piece.problem, lambda), solver_, observer_, start);
   ++solves_;
   digits_ += cut.digits;

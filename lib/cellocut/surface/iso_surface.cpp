@@ -15,29 +15,37 @@ namespace {
 
 constexpr int kEdge = kLeafEdge;    // 8 grid points along a block
 constexpr int kPadded = kEdge + 1;  // with the first layer of the next block
-constexpr int kPoints = kEdge * kEdge * kEdge;
 constexpr std::uint32_t kNoBlock = 0xFFFFFFFFU;
 
-// Bit n stands for grid point (n >> 6, (n >> 3) & 7, n & 7) of a block.
+// Bit n stands for grid point (n >> 6, (n >> 3) & 7, n & 7) of a block: a word for each x, in it
+// eight bits for each y.
 class BlockMask {
  public:
-  void set(int n) { words_[n >> 6] |= std::uint64_t{1} << (n & 63); }
-  // To be called once all bits are set, before count_before and count.
+  // The eight points from (x, y, 0) on, of which none has been set before.
+  void set_row(int x, int y, unsigned bits) { words_[x] |= std::uint64_t{bits} << (kEdge * y); }
+  // To be called once all bits are set, before count and for_each.
   void number() {
-    for (int w = 0; w < 8; ++w) {
-      before_[w + 1] = static_cast<std::uint16_t>(before_[w] + std::popcount(words_[w]));
+    for (int x = 0; x < kEdge; ++x) {
+      before_[x + 1] = static_cast<std::uint16_t>(before_[x] + std::popcount(words_[x]));
     }
   }
-  [[nodiscard]] int count_before(int n) const {
-    const std::uint64_t below = (std::uint64_t{1} << (n & 63)) - 1;
-    return before_[n >> 6] + std::popcount(words_[n >> 6] & below);
+  [[nodiscard]] int count() const { return before_[kEdge]; }
+
+  // Calls visit(x, y, z, how many bits are before it) for each bit with x < `layers`, in order.
+  template <class Visit>
+  void for_each(int layers, const Visit& visit) const {
+    for (int x = 0; x < layers; ++x) {
+      int rank = before_[x];
+      for (std::uint64_t left = words_[x]; left != 0; left &= left - 1) {
+        const int n = std::countr_zero(left);
+        visit(x, n / kEdge, n % kEdge, rank++);
+      }
+    }
   }
-  [[nodiscard]] bool test(int n) const { return ((words_[n >> 6] >> (n & 63)) & 1) != 0; }
-  [[nodiscard]] int count() const { return before_[8]; }
 
  private:
-  std::array<std::uint64_t, 8> words_{};
-  std::array<std::uint16_t, 9> before_{};  // bits in the words before
+  std::array<std::uint64_t, kEdge> words_{};
+  std::array<std::uint16_t, kEdge + 1> before_{};  // bits in the words before
 };
 
 // A block and what it owns: the vertices on grid edges that start in it, in the order x-edges,
@@ -58,56 +66,84 @@ struct Block {
   }
 };
 
-constexpr int point_number(int x, int y, int z) { return (x * kEdge + y) * kEdge + z; }
+// The points of a block and of the layer beyond it, in arrays.
+constexpr int padded(int x, int y, int z) { return (x * kPadded + y) * kPadded + z; }
+constexpr int kPaddedPoints = kPadded * kPadded * kPadded;
 
-// Values of a block and of the layer beyond it; `stored` is false where the band does not reach.
-struct PaddedValues {
-  std::array<float, kPadded * kPadded * kPadded> value;
-  std::array<bool, kPadded * kPadded * kPadded> stored;
-
-  static constexpr int at(int x, int y, int z) { return (x * kPadded + y) * kPadded + z; }
-
+// Values of a block and of the layer beyond it. Rows of points along z are bits.
+class PaddedValues {
+ public:
   PaddedValues(const std::vector<Block>& blocks, const Block& block) {
-    stored.fill(false);
     for (int n = 0; n < 8; ++n) {
       if (block.next[n] == kNoBlock) continue;
       const FieldLeaf& leaf = *blocks[block.next[n]].leaf;
       const int x0 = (n & 1) * kEdge;
       const int y0 = ((n >> 1) & 1) * kEdge;
       const int z0 = (n >> 2) * kEdge;
-      for (int x = x0; x < (x0 == 0 ? kEdge : kPadded); ++x) {
-        for (int y = y0; y < (y0 == 0 ? kEdge : kPadded); ++y) {
-          for (int z = z0; z < (z0 == 0 ? kEdge : kPadded); ++z) {
-            const auto offset = static_cast<openvdb::Index>(point_number(x - x0, y - y0, z - z0));
-            value[at(x, y, z)] = leaf.getValue(offset);
-            stored[at(x, y, z)] = leaf.isValueOn(offset);
-          }
+      for (int x = 0; x < (x0 == 0 ? kEdge : 1); ++x) {
+        const auto on = leaf.valueMask().getWord<std::uint64_t>(static_cast<openvdb::Index>(x));
+        for (int y = 0; y < (y0 == 0 ? kEdge : 1); ++y) {
+          add_row({x0 + x, y0 + y, z0}, static_cast<unsigned>(on >> (kEdge * y)) & 0xFFU,
+                  leaf.buffer().data() + (x * kEdge + y) * kEdge, z0 == 0 ? kEdge : 1);
         }
       }
     }
   }
 
-  // The sign pattern of the cell at (x, y, z), or 0 where the zero set does not pass through it: a
-  // cell that it does pass through has all corners in the band.
-  [[nodiscard]] int pattern(int x, int y, int z) const {
-    int inside = 0;
-    for (int c = 0; c < 8; ++c) {
-      const int n = at(x + (c & 1), y + ((c >> 1) & 1), z + (c >> 2));
-      if (!stored[n]) return 0;
-      if (value[n] < 0) inside |= 1 << c;
-    }
-    return inside;
-  }
-};
+  [[nodiscard]] float operator()(int x, int y, int z) const { return value_[padded(x, y, z)]; }
 
-template <class Visit>
-void for_each_point(const Visit& visit) {
-  for (int x = 0; x < kEdge; ++x) {
-    for (int y = 0; y < kEdge; ++y) {
-      for (int z = 0; z < kEdge; ++z) visit(x, y, z);
+  // By bits of z, which edges of the grid along the axis, from (x, y, z) on, the zero set cuts.
+  [[nodiscard]] unsigned cut_edges(int x, int y, int axis) const {
+    const unsigned stored = stored_[x][y];
+    const unsigned inside = inside_[x][y];
+    const int x1 = x + (axis == 0 ? 1 : 0);
+    const int y1 = y + (axis == 1 ? 1 : 0);
+    const int shift = axis == 2 ? 1 : 0;
+    return stored & (stored_[x1][y1] >> shift) & (inside ^ (inside_[x1][y1] >> shift)) & 0xFFU;
+  }
+
+  // Calls visit(x, y, z, sign pattern) for each cell that the zero set passes through, in the order
+  // of the points: it has all corners in the band.
+  template <class Visit>
+  void for_each_cut_cell(const Visit& visit) const {
+    for (int x = 0; x < kEdge; ++x) {
+      for (int y = 0; y < kEdge; ++y) {
+        unsigned stored =
+            stored_[x][y] & stored_[x + 1][y] & stored_[x][y + 1] & stored_[x + 1][y + 1];
+        const std::array<unsigned, 4> rows{inside_[x][y], inside_[x + 1][y], inside_[x][y + 1],
+                                           inside_[x + 1][y + 1]};
+        const unsigned any = rows[0] | rows[1] | rows[2] | rows[3];
+        const unsigned all = rows[0] & rows[1] & rows[2] & rows[3];
+        unsigned left = stored & (stored >> 1U) & (any | any >> 1U) & ~(all & all >> 1U) & 0xFFU;
+        for (; left != 0; left &= left - 1) {
+          const int z = std::countr_zero(left);
+          unsigned pattern = 0;
+          for (unsigned c = 0; c < 4; ++c) {
+            const unsigned pair = rows[c] >> static_cast<unsigned>(z);
+            pattern |= (pair & 1U) << c | (pair >> 1U & 1U) << (c + 4);
+          }
+          visit(x, y, z, pattern);
+        }
+      }
     }
   }
-}
+
+ private:
+  void add_row(const std::array<int, 3>& at, unsigned stored, const float* values, int count) {
+    unsigned inside = 0;
+    for (int z = 0; z < count; ++z) {
+      value_[padded(at[0], at[1], at[2] + z)] = values[z];
+      inside |= (values[z] < 0 ? 1U : 0U) << static_cast<unsigned>(z);
+    }
+    stored &= (1U << static_cast<unsigned>(count)) - 1;
+    stored_[at[0]][at[1]] |= static_cast<std::uint16_t>(stored << static_cast<unsigned>(at[2]));
+    inside_[at[0]][at[1]] |= static_cast<std::uint16_t>(inside << static_cast<unsigned>(at[2]));
+  }
+
+  std::array<float, kPaddedPoints> value_;
+  std::array<std::array<std::uint16_t, kPadded>, kPadded> stored_{};  // in the band
+  std::array<std::array<std::uint16_t, kPadded>, kPadded> inside_{};
+};
 
 std::vector<Block> list_blocks(const FieldTree& tree) {
   std::vector<Block> blocks;
@@ -132,50 +168,68 @@ std::vector<Block> list_blocks(const FieldTree& tree) {
 
 void count_block(const std::vector<Block>& blocks, Block& block) {
   const PaddedValues values(blocks, block);
-  for_each_point([&](int x, int y, int z) {
-    const int here = PaddedValues::at(x, y, z);
-    if (!values.stored[here]) return;
-    for (int axis = 0; axis < 3; ++axis) {
-      const int there = PaddedValues::at(x + (axis == 0 ? 1 : 0), y + (axis == 1 ? 1 : 0),
-                                         z + (axis == 2 ? 1 : 0));
-      if (values.stored[there] && (values.value[here] < 0) != (values.value[there] < 0)) {
-        block.cut[axis].set(point_number(x, y, z));
+  for (int x = 0; x < kEdge; ++x) {
+    for (int y = 0; y < kEdge; ++y) {
+      for (int axis = 0; axis < 3; ++axis) {
+        block.cut[axis].set_row(x, y, values.cut_edges(x, y, axis));
       }
     }
-    const CubeCase& cube = cube_table()[values.pattern(x, y, z)];
-    block.triangles += cube.triangles.size();
-    block.inner_points += cube.inner_loop.empty() ? 0 : 1;
-  });
+  }
   for (BlockMask& cut : block.cut) cut.number();
+  const std::array<CubeCase, 256>& table = cube_table();
+  values.for_each_cut_cell([&](int /*x*/, int /*y*/, int /*z*/, unsigned pattern) {
+    block.triangles += table[pattern].triangles.size();
+    block.inner_points += table[pattern].inner_loop.empty() ? 0 : 1;
+  });
 }
 
-// Number of the vertex on an edge of the cell at (x, y, z), which another block may own.
-std::uint32_t edge_vertex(const std::vector<Block>& blocks, const Block& block, int x, int y, int z,
-                          int edge) {
-  const int corner = edge_low_corner(edge);
-  x += corner & 1;
-  y += (corner >> 1) & 1;
-  z += corner >> 2;
-  const int n = (x / kEdge) | ((y / kEdge) << 1) | ((z / kEdge) << 2);
-  if (block.next[n] == kNoBlock) throw Error("iso-surface: the field is not a distance field");
-  const Block& owner = blocks[block.next[n]];
-  const int axis = edge_axis(edge);
-  const int point = point_number(x % kEdge, y % kEdge, z % kEdge);
-  if (!owner.cut[axis].test(point)) throw Error("iso-surface: the field is not a distance field");
-  int rank = owner.cut[axis].count_before(point);
-  for (int a = 0; a < axis; ++a) rank += owner.cut[a].count();
-  return owner.first_vertex + static_cast<std::uint32_t>(rank);
-}
+// The numbers of the vertices on the edges of the block's cells, which other blocks may own.
+class EdgeVertices {
+ public:
+  EdgeVertices(const std::vector<Block>& blocks, const Block& block) {
+    number_.fill(kNone);
+    for (int n = 0; n < 8; ++n) {
+      if (block.next[n] == kNoBlock) continue;
+      const bool in_x = (n & 1) == 0;
+      const bool in_y = (n & 2) == 0;
+      const bool in_z = (n & 4) == 0;
+      const Block& owner = blocks[block.next[n]];
+      std::uint32_t first = owner.first_vertex;
+      for (int axis = 0; axis < 3; ++axis) {
+        owner.cut[axis].for_each(in_x ? kEdge : 1, [&](int x, int y, int z, int rank) {
+          if ((y > 0 && !in_y) || (z > 0 && !in_z)) return;
+          const int point =
+              padded(x + (in_x ? 0 : kEdge), y + (in_y ? 0 : kEdge), z + (in_z ? 0 : kEdge));
+          number_[axis * kPaddedPoints + point] = first + static_cast<std::uint32_t>(rank);
+        });
+        first += static_cast<std::uint32_t>(owner.cut[axis].count());
+      }
+    }
+  }
+
+  // On an edge of the cell at (x, y, z).
+  [[nodiscard]] std::uint32_t operator()(int x, int y, int z, int edge) const {
+    const int corner = edge_low_corner(edge);
+    const std::uint32_t number =
+        number_[edge_axis(edge) * kPaddedPoints +
+                padded(x + (corner & 1), y + ((corner >> 1) & 1), z + (corner >> 2))];
+    if (number == kNone) throw Error("iso-surface: the field is not a distance field");
+    return number;
+  }
+
+ private:
+  static constexpr std::uint32_t kNone = 0xFFFFFFFFU;
+  std::array<std::uint32_t, 3 * kPaddedPoints> number_;  // by axis and the edge's first point
+};
 
 void place_vertices(const std::vector<Block>& blocks, const Block& block, TriangleSoup& surface) {
   const PaddedValues values(blocks, block);
   std::uint32_t vertex = block.first_vertex;
   for (int axis = 0; axis < 3; ++axis) {
-    for_each_point([&](int x, int y, int z) {
-      if (!block.cut[axis].test(point_number(x, y, z))) return;
-      const double here = values.value[PaddedValues::at(x, y, z)];
-      const double there = values.value[PaddedValues::at(
-          x + (axis == 0 ? 1 : 0), y + (axis == 1 ? 1 : 0), z + (axis == 2 ? 1 : 0))];
+    block.cut[axis].for_each(kEdge, [&](int x, int y, int z, int /*rank*/) {
+      const double here = values(x, y, z);
+      const double there =
+          values(x + (axis == 0 ? 1 : 0), y + (axis == 1 ? 1 : 0), z + (axis == 2 ? 1 : 0));
       const double t = here / (here - there);
       Point3 p{static_cast<double>(block.low.x() + x), static_cast<double>(block.low.y() + y),
                static_cast<double>(block.low.z() + z)};
@@ -186,24 +240,24 @@ void place_vertices(const std::vector<Block>& blocks, const Block& block, Triang
 }
 
 void place_triangles(const std::vector<Block>& blocks, const Block& block, TriangleSoup& surface) {
+  if (block.triangles == 0) return;
   const PaddedValues values(blocks, block);
+  const EdgeVertices vertex(blocks, block);
+  const std::array<CubeCase, 256>& table = cube_table();
   std::size_t triangle = block.first_triangle;
   std::uint32_t inner = block.first_vertex + static_cast<std::uint32_t>(block.edge_vertices());
-  for_each_point([&](int x, int y, int z) {
-    const int pattern = values.pattern(x, y, z);
-    if (pattern == 0 || pattern == 255) return;
-    const CubeCase& cube = cube_table()[pattern];
+  values.for_each_cut_cell([&](int x, int y, int z, unsigned pattern) {
+    const CubeCase& cube = table[pattern];
     for (const std::array<std::uint8_t, 3>& corners : cube.triangles) {
       Triangle& face = surface.triangles[triangle++];
       for (int k = 0; k < 3; ++k) {
-        face[k] =
-            corners[k] == kInnerPoint ? inner : edge_vertex(blocks, block, x, y, z, corners[k]);
+        face[k] = corners[k] == kInnerPoint ? inner : vertex(x, y, z, corners[k]);
       }
     }
     if (cube.inner_loop.empty()) return;
     Point3 sum{};
     for (const std::uint8_t edge : cube.inner_loop) {
-      sum = sum + surface.points[edge_vertex(blocks, block, x, y, z, edge)];
+      sum = sum + surface.points[vertex(x, y, z, edge)];
     }
     surface.points[inner++] = (1.0 / static_cast<double>(cube.inner_loop.size())) * sum;
   });

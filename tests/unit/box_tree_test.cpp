@@ -46,8 +46,12 @@ Pairs all_pairs(const std::vector<FloatBox>& boxes) {
 Pairs pairs_of(const BoxTree& tree) {
   Pairs pairs;
   for (std::size_t leaf = 0; leaf < tree.leaf_count(); ++leaf) {
-    tree.visit_pairs_of_leaf(leaf, [&](std::size_t place, std::uint32_t other) {
-      EXPECT_TRUE(pairs.insert(std::minmax(tree.ids_of_leaf(leaf)[place], other)).second);
+    tree.visit_pairs_of_leaf(leaf, [&](unsigned places, std::uint32_t other) {
+      EXPECT_NE(places, 0U);
+      for (std::size_t i = 0; i < 8; ++i) {
+        if ((places >> i & 1U) == 0) continue;
+        EXPECT_TRUE(pairs.insert(std::minmax(tree.ids_of_leaf(leaf)[i], other)).second);
+      }
     });
   }
   return pairs;

@@ -107,10 +107,39 @@ TEST(EmbeddedStars, KnowsMostOfASmoothSurface) {
   std::size_t embedded = 0;
   for (std::uint32_t v = 0; v < sphere.points.size(); ++v) embedded += stars.embedded(v) ? 1 : 0;
   EXPECT_EQ(embedded, sphere.points.size());
-  const Buckets corners_at = corners_by_point(sphere.triangles, sphere.points.size());
-  const auto face = [&](std::size_t n) { return sphere.triangles[corners_at[0][n] / 3]; };
-  EXPECT_TRUE(stars.settle(face(0), face(1)));
-  EXPECT_FALSE(stars.settle({100, 101, 102}, {103, 104, 105})) << "no common vertex";
+}
+
+// Eight faces at once, against a look at each pair; a vertex whose star is not proved says nothing.
+TEST(StarsOfFaces, SettlesFacesAtACommonVertex) {
+  TriangleSoup sphere = test::icosphere(3);
+  sphere.triangles.pop_back();  // the stars of three vertices are open
+  const EmbeddedStars stars = stars_of(sphere);
+  std::mt19937_64 random(5);
+  int settled = 0;
+  int not_proved = 0;
+  for (std::size_t count = 1; count <= 8; ++count) {
+    for (int round = 0; round < 50; ++round) {
+      std::vector<std::uint32_t> ids(count);
+      for (std::uint32_t& id : ids) {
+        id = static_cast<std::uint32_t>(sphere.triangles.size() - 1 - random() % 40);
+      }
+      const StarsOfFaces faces(stars, sphere.triangles, ids);
+      for (const Triangle& other : sphere.triangles) {
+        unsigned expected = 0;
+        for (std::size_t i = 0; i < count; ++i) {
+          for (const std::uint32_t v : sphere.triangles[ids[i]]) {
+            if (std::find(other.begin(), other.end(), v) == other.end()) continue;
+            if (stars.embedded(v)) expected |= 1U << i;
+            not_proved += stars.embedded(v) ? 0 : 1;
+          }
+        }
+        ASSERT_EQ(faces.settled(other), expected);
+        settled += expected != 0 ? 1 : 0;
+      }
+    }
+  }
+  EXPECT_GT(settled, 1000);
+  EXPECT_GT(not_proved, 100);
 }
 
 }  // namespace

@@ -15,11 +15,18 @@ namespace {
 // The corners other than k, in the order in which they are seen counter-clockwise from outside.
 constexpr int kOutward[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
 
+// A facet among those with the same smallest corner.
 struct FacetKey {
-  std::array<std::uint32_t, 3> corners;  // ascending
-  std::uint32_t side;                    // 4 * cell + corner that the facet is opposite to
-  auto operator<=>(const FacetKey&) const = default;
+  std::uint64_t others;  // its other corners, the smaller first
+  std::uint32_t side;    // 4 * cell + corner that the facet is opposite to
+  bool operator<(const FacetKey& b) const {
+    return others != b.others ? others < b.others : side < b.side;
+  }
 };
+
+std::uint64_t pair_key(std::uint32_t first, std::uint32_t second) {
+  return std::uint64_t{first} << 32U | second;
+}
 
 // Ascending corners, the last two swapped where that order is negatively oriented: the number of
 // transpositions that sort a positively oriented quadruple tells which.
@@ -78,7 +85,13 @@ std::vector<std::array<std::uint32_t, 4>> sorted(
     const auto begin = result.begin() + static_cast<std::ptrdiff_t>(by_first.begin(point));
     auto end = begin;
     for (const std::uint32_t c : by_first[point]) *end++ = cells[c];
-    std::sort(begin, end, [](const auto& a, const auto& b) { return ascending(a) < ascending(b); });
+    std::sort(begin, end, [](const auto& cell, const auto& other) {
+      const std::array<std::uint32_t, 4> a = ascending(cell);
+      const std::array<std::uint32_t, 4> b = ascending(other);
+      const std::uint64_t key = pair_key(a[1], a[2]);
+      const std::uint64_t other_key = pair_key(b[1], b[2]);
+      return key != other_key ? key < other_key : a[3] < b[3];
+    });
   });
   return result;
 }
@@ -87,8 +100,8 @@ std::vector<std::array<std::uint32_t, 4>> sorted(
 void link(const std::vector<FacetKey>& facets,
           std::vector<std::array<std::int32_t, 4>>& neighbours) {
   for (std::size_t f = 0; f + 1 < facets.size(); ++f) {
-    if (facets[f].corners != facets[f + 1].corners) continue;
-    if (f + 2 < facets.size() && facets[f].corners == facets[f + 2].corners) {
+    if (facets[f].others != facets[f + 1].others) continue;
+    if (f + 2 < facets.size() && facets[f].others == facets[f + 2].others) {
       throw Error("tetrahedralization: a facet belongs to three cells");
     }
     const std::uint32_t a = facets[f].side;
@@ -121,7 +134,10 @@ TetComplex make_canonical(std::vector<Point3> points,
     for (std::size_t point = range.begin(); point < range.end(); ++point) {
       facets.clear();
       for (const std::uint32_t side : by_smallest[point]) {
-        facets.push_back({facet_corners(complex, side / 4, static_cast<int>(side % 4)), side});
+        const std::array<std::uint32_t, 4>& corners = complex.cells[side / 4];
+        const std::uint32_t k = side % 4;
+        const auto [second, third] = std::minmax(corners[k < 2 ? 2 : 1], corners[k == 3 ? 2 : 3]);
+        facets.push_back({pair_key(second, third), side});
       }
       std::sort(facets.begin(), facets.end());
       link(facets, complex.neighbours);

@@ -1,5 +1,7 @@
 #include "cellocut/complex/tetrahedralizer.h"
 
+#include <tbb/parallel_sort.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -16,7 +18,7 @@ namespace {
 std::vector<std::uint32_t> find_first_copies(const std::vector<Point3>& points) {
   std::vector<std::uint32_t> order(points.size());
   std::iota(order.begin(), order.end(), 0U);
-  std::sort(order.begin(), order.end(), [&](std::uint32_t i, std::uint32_t j) {
+  tbb::parallel_sort(order.begin(), order.end(), [&](std::uint32_t i, std::uint32_t j) {
     if (points[i] != points[j]) return points[i] < points[j];
     return i < j;
   });

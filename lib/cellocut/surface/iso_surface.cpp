@@ -3,9 +3,11 @@
 #include <tbb/parallel_for.h>
 
 #include <bit>
+#include <cstring>
 #include <unordered_map>
 
 #include "cellocut/base/errors.h"
+#include "cellocut/base/lanes.h"
 #include "cellocut/field/sparse_grid.h"
 #include "cellocut/surface/cube_table.h"
 
@@ -83,8 +85,13 @@ class PaddedValues {
       for (int x = 0; x < (x0 == 0 ? kEdge : 1); ++x) {
         const auto on = leaf.valueMask().getWord<std::uint64_t>(static_cast<openvdb::Index>(x));
         for (int y = 0; y < (y0 == 0 ? kEdge : 1); ++y) {
-          add_row({x0 + x, y0 + y, z0}, static_cast<unsigned>(on >> (kEdge * y)) & 0xFFU,
-                  leaf.buffer().data() + (x * kEdge + y) * kEdge, z0 == 0 ? kEdge : 1);
+          const float* values = leaf.buffer().data() + (x * kEdge + y) * kEdge;
+          const auto stored = static_cast<std::uint16_t>(on >> (kEdge * y) & 0xFFU);
+          if (z0 == 0) {
+            set_row(x0 + x, y0 + y, stored, values);
+          } else {
+            set_last(x0 + x, y0 + y, stored & 1U, values[0]);
+          }
         }
       }
     }
@@ -129,15 +136,19 @@ class PaddedValues {
   }
 
  private:
-  void add_row(const std::array<int, 3>& at, unsigned stored, const float* values, int count) {
-    unsigned inside = 0;
-    for (int z = 0; z < count; ++z) {
-      value_[padded(at[0], at[1], at[2] + z)] = values[z];
-      inside |= (values[z] < 0 ? 1U : 0U) << static_cast<unsigned>(z);
-    }
-    stored &= (1U << static_cast<unsigned>(count)) - 1;
-    stored_[at[0]][at[1]] |= static_cast<std::uint16_t>(stored << static_cast<unsigned>(at[2]));
-    inside_[at[0]][at[1]] |= static_cast<std::uint16_t>(inside << static_cast<unsigned>(at[2]));
+  void set_row(int x, int y, std::uint16_t stored, const float* values) {
+    FloatLanes low;
+    FloatLanes high;
+    std::memcpy(&low, values, sizeof low);
+    std::memcpy(&high, values + 4, sizeof high);
+    std::memcpy(&value_[padded(x, y, 0)], values, kEdge * sizeof(float));
+    stored_[x][y] |= stored;
+    inside_[x][y] |= static_cast<std::uint16_t>(bits_of(low < 0) | bits_of(high < 0) << 4U);
+  }
+  void set_last(int x, int y, unsigned stored, float value) {
+    value_[padded(x, y, kEdge)] = value;
+    stored_[x][y] |= static_cast<std::uint16_t>(stored << kEdge);
+    inside_[x][y] |= static_cast<std::uint16_t>((value < 0 ? 1U : 0U) << kEdge);
   }
 
   std::array<float, kPaddedPoints> value_;

@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstring>
 #include <functional>
 #include <memory>
 
+#include "cellocut/base/lanes.h"
 #include "cellocut/field/band.h"
 #include "cellocut/field/leaf_walk.h"
 #include "cellocut/surface/cell_region.h"
@@ -61,7 +63,23 @@ class BlockPhi {
  public:
   BlockPhi(const FieldTree& phi, const openvdb::Coord& low)
       : leaf_(phi.probeConstLeaf(low)), tile_(leaf_ == nullptr ? phi.getValue(low) : 0.0F) {}
-  float operator[](std::uint32_t n) const { return leaf_ == nullptr ? tile_ : leaf_->getValue(n); }
+  float operator[](std::uint32_t n) const {
+    return leaf_ == nullptr ? tile_ : leaf_->buffer().data()[n];
+  }
+  [[nodiscard]] LeafMask positive() const {
+    LeafMask mask{};
+    if (leaf_ == nullptr) {
+      if (tile_ > 0) mask.fill(~std::uint64_t{0});
+      return mask;
+    }
+    const float* values = leaf_->buffer().data();
+    for (std::uint32_t n = 0; n < FieldLeaf::SIZE; n += 4) {
+      FloatLanes four;
+      std::memcpy(&four, values + n, sizeof four);
+      mask[n / 64] |= std::uint64_t{bits_of(four > 0)} << (n % 64);
+    }
+    return mask;
+  }
 
  private:
   const FieldLeaf* leaf_;
@@ -112,10 +130,7 @@ Points classify(const std::vector<openvdb::Coord>& blocks, const FieldTree& phi,
   tbb::parallel_for(std::size_t{0}, blocks.size(), [&](std::size_t block) {
     points.absorbed[block] = absorbed.points_of_leaf(blocks[block]);
     points.in_cells[block] = interior.points_of_leaf(blocks[block]);
-    const BlockPhi thick(phi, blocks[block]);
-    for (std::uint32_t n = 0; n < FieldLeaf::SIZE; ++n) {
-      if (thick[n] > 0) add_point(points.outside[block], n);
-    }
+    points.outside[block] = BlockPhi(phi, blocks[block]).positive();
     for (int x = 0; x < kLeafEdge; ++x) points.outside[block][x] &= ~points.absorbed[block][x];
   });
   const Masks through = combined(points.outside, points.in_cells, std::bit_and<>());
@@ -126,14 +141,6 @@ Points classify(const std::vector<openvdb::Coord>& blocks, const FieldTree& phi,
   points.near_open = points.open;
   walk_leaves(blocks, tiles, Masks(blocks.size(), all), 3, points.near_open, observer);
   return points;
-}
-
-void store(FieldLeaf& leaf, std::uint32_t offset, float value) {
-  if (std::fabs(value) < kBand) {
-    leaf.setValueOn(offset, value);
-  } else {
-    leaf.setValueOff(offset, value < 0 ? -kBand : kBand);
-  }
 }
 
 // More than the rounding of stored distances.
@@ -169,18 +176,30 @@ class Combination {
   // `distance` from the region's boundary, where it is within the reach.
   [[nodiscard]] LeafPointer leaf(const FieldLeaf& distance) const {
     auto leaf = std::make_unique<FieldLeaf>(low_, kBand, false);
-    for (std::uint32_t n = 0; n < FieldLeaf::SIZE; ++n) {
-      const bool absorbed = has_point(points_.absorbed[block_], n);
-      const float region = absorbed ? -distance.getValue(n) : distance.getValue(n);
-      const float value = std::min(phi_[n], region);
-      if (has_point(points_.outside[block_], n) && has_point(points_.in_cells[block_], n)) {
-        // Stored even beyond the band: what stays and what does not may be neighbours there.
-        const float size = std::min(value, kLargestStored);
-        leaf->setValueOn(n, has_point(points_.open[block_], n) ? size : -size);
-      } else {
-        store(*leaf, n, value);
+    float* values = leaf->buffer().data();
+    const float* distances = distance.buffer().data();
+    FieldLeaf::NodeMaskType stored;
+    for (std::uint32_t x = 0; x < kLeafEdge; ++x) {
+      const std::uint64_t absorbed = points_.absorbed[block_][x];
+      const std::uint64_t open = points_.open[block_][x];
+      // Stored even beyond the band: what stays and what does not may be neighbours there.
+      const std::uint64_t chosen = points_.outside[block_][x] & points_.in_cells[block_][x];
+      std::uint64_t in_band = 0;
+      for (std::uint32_t bit = 0; bit < 64; ++bit) {
+        const std::uint32_t n = 64 * x + bit;
+        const auto is = [bit](std::uint64_t word) { return (word >> bit & 1U) != 0; };
+        const float value = std::min(phi_[n], is(absorbed) ? -distances[n] : distances[n]);
+        if (is(chosen)) {
+          const float size = std::min(value, kLargestStored);
+          values[n] = is(open) ? size : -size;
+        } else {
+          values[n] = std::clamp(value, -kBand, kBand);
+          in_band |= std::uint64_t{std::fabs(value) < kBand ? 1U : 0U} << bit;
+        }
       }
+      stored.getWord<std::uint64_t>(x) = in_band | chosen;
     }
+    leaf->setValueMask(stored);
     return leaf;
   }
 

@@ -20,9 +20,7 @@
 #include <span>
 #include <vector>
 
-#ifdef __SSE2__
-#include <emmintrin.h>
-#endif
+#include "cellocut/base/lanes.h"
 
 namespace cellocut {
 
@@ -86,31 +84,27 @@ class EightBoxes {
     return box;
   }
 
+  // Bit i is set where box i overlaps the given one.
+  [[nodiscard]] unsigned overlapping(const FloatBox& box) const {
+    return four_overlap(box, 0) | four_overlap(box, 1) << 4U;
+  }
   // Calls visit(i) for each box from `first` on that overlaps the given one, in order.
   template <class Visit>
   void overlapping(const FloatBox& box, std::size_t first, const Visit& visit) const {
-    unsigned mask = (four_overlap(box, 0) | four_overlap(box, 1) << 4U) >> first << first;
+    unsigned mask = overlapping(box) >> first << first;
     for (; mask != 0; mask &= mask - 1) visit(static_cast<std::size_t>(std::countr_zero(mask)));
   }
 
  private:
-  // A vector type of GCC and Clang, which is a register of any 64-bit machine.
-  using Lanes __attribute__((vector_size(4 * sizeof(float)))) = float;
-
   // By bits, which of the four boxes of a half overlap the given one.
   [[nodiscard]] unsigned four_overlap(const FloatBox& box, std::size_t half) const {
-    const auto meet = (low_[half][0] <= box.high[0]) & (high_[half][0] >= box.low[0]) &
-                      (low_[half][1] <= box.high[1]) & (high_[half][1] >= box.low[1]) &
-                      (low_[half][2] <= box.high[2]) & (high_[half][2] >= box.low[2]);
-#ifdef __SSE2__
-    return static_cast<unsigned>(_mm_movemask_ps(reinterpret_cast<__m128>(meet)));
-#else
-    return (meet[0] & 1U) | (meet[1] & 2U) | (meet[2] & 4U) | (meet[3] & 8U);
-#endif
+    return bits_of((low_[half][0] <= box.high[0]) & (high_[half][0] >= box.low[0]) &
+                   (low_[half][1] <= box.high[1]) & (high_[half][1] >= box.low[1]) &
+                   (low_[half][2] <= box.high[2]) & (high_[half][2] >= box.low[2]));
   }
 
-  std::array<std::array<Lanes, 3>, 2> low_;  // by half and axis
-  std::array<std::array<Lanes, 3>, 2> high_;
+  std::array<std::array<FloatLanes, 3>, 2> low_;  // by half and axis
+  std::array<std::array<FloatLanes, 3>, 2> high_;
 };
 
 class BoxTree {
@@ -142,23 +136,20 @@ class BoxTree {
   // O(log n); not while another thread visits.
   void replace(std::size_t place, const FloatBox& box);
 
-  // Calls visit(place in the leaf, id of the other) once for each pair of overlapping boxes of
-  // which one is in `leaf` and the other is in the same or a later leaf; over all leaves that is
+  // Calls visit(places, id) for boxes in `leaf` and in later leaves that overlap some in `leaf`:
+  // bit i of `places` is set where they overlap the one at place i of it. Over all leaves that is
   // each overlapping pair once.
   template <class Visit>
   void visit_pairs_of_leaf(std::size_t leaf, const Visit& visit) const {
     const EightBoxes& own = levels_[0][leaf];
     const std::size_t count = ids_of_leaf(leaf).size();
-    std::array<FloatBox, kSize> boxes;
-    FloatBox box = FloatBox::none();
-    for (std::size_t i = 0; i < kSize; ++i) {
-      boxes[i] = own[i];
-      box.include(boxes[i]);
-    }
-    for (std::size_t i = 0; i < count; ++i) {
-      own.overlapping(boxes[i], i + 1, [&](std::size_t j) { visit(i, ids_[kSize * leaf + j]); });
-    }
+    const auto meet = [&](const FloatBox& box, unsigned among, std::uint32_t id) {
+      const unsigned places = own.overlapping(box) & among;
+      if (places != 0) visit(places, id);
+    };
+    for (std::size_t j = 1; j < count; ++j) meet(own[j], (1U << j) - 1, ids_[kSize * leaf + j]);
     // Later leaves lie below the right siblings of the nodes on the way up.
+    const FloatBox box = own.around();
     std::size_t node = leaf;
     for (std::size_t level = 1; level < levels_.size(); ++level, node /= kSize) {
       const std::size_t parent = node / kSize;
@@ -166,10 +157,8 @@ class BoxTree {
         const std::size_t sibling = kSize * parent + child;
         descend(level - 1, sibling, box, &always, [&](std::size_t other) {
           const EightBoxes& others = levels_[0][other];
-          own.overlapping(levels_[1][other / kSize][other % kSize], 0, [&](std::size_t i) {
-            others.overlapping(boxes[i], 0,
-                               [&](std::size_t j) { visit(i, ids_[kSize * other + j]); });
-          });
+          others.overlapping(box, 0,
+                             [&](std::size_t j) { meet(others[j], ~0U, ids_[kSize * other + j]); });
         });
       });
     }

@@ -2,10 +2,14 @@
 // their common corners and edges: most pairs of faces whose boxes overlap share a vertex.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "cellocut/base/buckets.h"
+#include "cellocut/base/lanes.h"
 #include "cellocut/mesh/triangle_soup.h"
 
 namespace cellocut {
@@ -26,19 +30,44 @@ class EmbeddedStars {
   // Whether the star of the vertex is proved to be embedded; false says nothing.
   [[nodiscard]] bool embedded(std::uint32_t vertex) const { return embedded_[vertex] != 0; }
 
-  // Whether two different faces share a vertex with such a star: they then meet in common corners
-  // or a common edge alone.
-  [[nodiscard]] bool settle(const Triangle& s, const Triangle& t) const {
-    unsigned settled = 0;  // without a branch, as none could be foreseen
-    for (const std::uint32_t v : s) {
-      const auto is = [v](std::uint32_t corner) { return corner == v ? 1U : 0U; };
-      settled |= (is(t[0]) | is(t[1]) | is(t[2])) & embedded_[v];
+ private:
+  std::vector<std::uint8_t> embedded_;  // by point
+};
+
+// Up to eight faces, which other ones are compared with at once.
+class StarsOfFaces {
+ public:
+  // Precondition: at most eight ids.
+  StarsOfFaces(const EmbeddedStars& stars, const std::vector<Triangle>& triangles,
+               std::span<const std::uint32_t> ids) {
+    constexpr std::int32_t kNone = -1;  // no corner that a face has
+    for (auto& half : corner_) half.fill(IntLanes{kNone, kNone, kNone, kNone});
+    for (std::size_t i = 0; i < ids.size(); ++i) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        const std::uint32_t vertex = triangles[ids[i]][k];
+        if (!stars.embedded(vertex)) continue;
+        corner_[i / 4][k][i % 4] = static_cast<std::int32_t>(vertex);
+      }
     }
-    return settled != 0;
+  }
+
+  // Bit i is set where face i and `other`, if that is another one, share a vertex whose star is
+  // proved to be embedded: they then meet in common corners or a common edge alone.
+  [[nodiscard]] unsigned settled(const Triangle& other) const {
+    IntLanes first{};
+    IntLanes second{};
+    for (const std::uint32_t vertex : other) {
+      const auto v = static_cast<std::int32_t>(vertex);
+      for (std::size_t k = 0; k < 3; ++k) {
+        first |= corner_[0][k] == v;
+        second |= corner_[1][k] == v;
+      }
+    }
+    return bits_of(first) | bits_of(second) << 4U;
   }
 
  private:
-  std::vector<std::uint8_t> embedded_;  // by point
+  std::array<std::array<IntLanes, 3>, 2> corner_;  // of four faces each; those with such a star
 };
 
 }  // namespace cellocut

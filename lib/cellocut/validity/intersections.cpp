@@ -6,7 +6,9 @@
 #include <tbb/parallel_sort.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
+#include <bit>
 #include <cmath>
 #include <optional>
 #include <span>
@@ -102,10 +104,10 @@ std::vector<std::vector<std::uint32_t>> size_classes(const std::vector<std::uint
   return classes;
 }
 
-// Two faces whose boxes overlap, one by its place in a leaf.
+// A face whose box overlaps those of faces of a leaf, by the bits of their places.
 struct Candidate {
-  std::uint32_t place;
-  std::uint32_t other;
+  std::uint32_t face;
+  std::uint32_t places;
 };
 
 class Search {
@@ -228,26 +230,25 @@ void visit_intersecting_pairs(const BoxTree& tree, const std::vector<Point3>& po
   const tbb::blocked_range<std::size_t> leaves(0, tree.leaf_count(), 64);
   tbb::parallel_for(leaves, [&](const auto& range) {
     std::vector<Candidate> candidates;
-    std::vector<std::optional<PreparedFace>> prepared;
+    std::array<std::optional<PreparedFace>, EightBoxes::kSize> prepared;
     for (std::size_t leaf = range.begin(); leaf < range.end(); ++leaf) {
       const std::span<const std::uint32_t> faces = tree.ids_of_leaf(leaf);
+      const StarsOfFaces settled(stars, triangles, faces);
       candidates.clear();
-      tree.visit_pairs_of_leaf(leaf, [&](std::size_t place, std::uint32_t other) {
-        candidates.push_back({static_cast<std::uint32_t>(place), other});
+      tree.visit_pairs_of_leaf(leaf, [&](unsigned places, std::uint32_t face) {
+        candidates.push_back({face, places});
       });
-      // About every second pair is settled here, which no processor foresees: so no branch.
-      auto open = candidates.begin();
-      for (const Candidate& pair : candidates) {
-        *open = pair;
-        open += stars.settle(triangles[faces[pair.place]], triangles[pair.other]) ? 0 : 1;
-      }
-      candidates.erase(open, candidates.end());
-      prepared.assign(faces.size(), std::nullopt);
-      for (const auto& [place, other] : candidates) {
-        const Triangle& face = triangles[faces[place]];
-        if (!prepared[place]) prepared[place].emplace(points, face);
-        if (prepared[place]->certainly_apart(points, triangles[other])) continue;
-        if (faces_intersect(points, face, triangles[other])) found(faces[place], other);
+      prepared.fill(std::nullopt);
+      for (const Candidate& candidate : candidates) {
+        const Triangle& other = triangles[candidate.face];
+        unsigned open = candidate.places & ~settled.settled(other);
+        for (; open != 0; open &= open - 1) {
+          const auto place = static_cast<std::size_t>(std::countr_zero(open));
+          const Triangle& face = triangles[faces[place]];
+          if (!prepared[place]) prepared[place].emplace(points, face);
+          if (prepared[place]->certainly_apart(points, other)) continue;
+          if (faces_intersect(points, face, other)) found(faces[place], candidate.face);
+        }
       }
     }
     done(range.size());

@@ -17,18 +17,18 @@ void for_each_raster_point(const Point3& a, const Point3& b, double step, const 
   for (int i = 0; i <= steps; ++i) visit(a + (static_cast<double>(i) / steps) * along);
 }
 
-// Visits points on the triangle: its edges, and rows at most `step` apart between the longest of
-// them and the corner opposite. As many as its area asks for, however thin it is.
+// Visits points within the triangle: on rows at most `step` apart between the longest edge and the
+// corner opposite, which are not of the edges but for the ends of rows. As many as its area asks
+// for, however thin it is.
 template <class Visit>
-void for_each_raster_point(const std::array<Point3, 3>& corner, double step, const Visit& visit) {
+void for_each_inner_raster_point(const std::array<Point3, 3>& corner, double step,
+                                 const Visit& visit) {
   int base = 0;
   double longest = -1;
   for (int k = 0; k < 3; ++k) {
-    const Point3& a = corner[k];
-    const Point3& b = corner[(k + 1) % 3];
-    for_each_raster_point(a, b, step, visit);
-    if (norm(b - a) > longest) {
-      longest = norm(b - a);
+    const double length = norm(corner[(k + 1) % 3] - corner[k]);
+    if (length > longest) {
+      longest = length;
       base = k;
     }
   }
@@ -42,6 +42,13 @@ void for_each_raster_point(const std::array<Point3, 3>& corner, double step, con
     const Point3 start = a + t * side;
     for_each_raster_point(start, start + (1 - t) * along, step, visit);
   }
+}
+
+// Visits points on the triangle: those and points on its edges.
+template <class Visit>
+void for_each_raster_point(const std::array<Point3, 3>& corner, double step, const Visit& visit) {
+  for (int k = 0; k < 3; ++k) for_each_raster_point(corner[k], corner[(k + 1) % 3], step, visit);
+  for_each_inner_raster_point(corner, step, visit);
 }
 
 }  // namespace cellocut

@@ -1,10 +1,13 @@
 #include "cellocut/field/line_crossings.h"
 
+#include <tbb/blocked_range.h>
+#include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
-#include <tbb/parallel_sort.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <numeric>
 
 #include "cellocut/base/line_coverage.h"
 
@@ -13,9 +16,8 @@ namespace cellocut {
 namespace {
 
 struct Crossing {
-  std::uint64_t line;
+  std::size_t line;
   double at;
-  auto operator<=>(const Crossing&) const = default;
 };
 
 }  // namespace
@@ -51,29 +53,42 @@ LineCrossings::LineCrossings(const TriangleSoup& mesh, const Frame& frame, int a
     }
   };
 
-  // Count, then write: the same list for any number of threads.
-  const std::vector<Triangle>& faces = mesh.triangles;
-  std::vector<std::size_t> offset(faces.size() + 1, 0);
-  tbb::parallel_for(std::size_t{0}, faces.size(), [&](std::size_t f) {
-    for_each_crossing(faces[f], [&](std::uint64_t, double) { ++offset[f + 1]; });
-  });
-  for (std::size_t f = 0; f < faces.size(); ++f) offset[f + 1] += offset[f];
-  std::vector<Crossing> crossings(offset.back());
-  tbb::parallel_for(std::size_t{0}, faces.size(), [&](std::size_t f) {
-    std::size_t next = offset[f];
-    for_each_crossing(faces[f], [&](std::uint64_t line, double x) {
-      crossings[next++] = {line, x};
+  // Each thread lists what it finds; then each line puts its own in order: the same for any number
+  // of threads.
+  using Crossings = std::vector<Crossing>;
+  tbb::enumerable_thread_specific<Crossings> parts;
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, mesh.triangles.size(), 1024),
+                    [&](const auto& range) {
+                      Crossings& found = parts.local();
+                      for (std::size_t f = range.begin(); f < range.end(); ++f) {
+                        for_each_crossing(mesh.triangles[f], [&found](std::size_t line, double x) {
+                          found.push_back({line, x});
+                        });
+                      }
+                    });
+  const auto for_each_found = [&parts](const auto& visit) {
+    tbb::parallel_for(parts.range(1), [&](const auto& range) {
+      for (const Crossings& found : range) {
+        for (const Crossing& crossing : found) visit(crossing);
+      }
     });
-  });
-  tbb::parallel_sort(crossings.begin(), crossings.end());
-
+  };
   first_.assign(static_cast<std::size_t>(extent_) * extent_ + 1, 0);
-  crossing_.reserve(crossings.size());
-  for (const Crossing& crossing : crossings) {
-    ++first_[crossing.line + 1];
-    crossing_.push_back(crossing.at);
-  }
-  for (std::size_t line = 1; line < first_.size(); ++line) first_[line] += first_[line - 1];
+  for_each_found([this](const Crossing& crossing) {
+    std::atomic_ref(first_[crossing.line]).fetch_add(1, std::memory_order_relaxed);
+  });
+  std::partial_sum(first_.begin(), first_.end(), first_.begin());
+  crossing_.resize(first_.back());
+  // Filling from the back turns each line's end into its begin.
+  for_each_found([this](const Crossing& crossing) {
+    const std::size_t place =
+        std::atomic_ref(first_[crossing.line]).fetch_sub(1, std::memory_order_relaxed) - 1;
+    crossing_[place] = crossing.at;
+  });
+  tbb::parallel_for(std::size_t{0}, first_.size() - 1, [this](std::size_t line) {
+    std::sort(crossing_.begin() + static_cast<std::ptrdiff_t>(first_[line]),
+              crossing_.begin() + static_cast<std::ptrdiff_t>(first_[line + 1]));
+  });
 }
 
 }  // namespace cellocut

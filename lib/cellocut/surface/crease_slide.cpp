@@ -1,7 +1,10 @@
 #include "cellocut/surface/crease_slide.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <vector>
 
@@ -27,14 +30,27 @@ CreaseSlide::CreaseSlide(std::span<const Point3> points, const std::vector<Trian
       sides_(sides),
       input_(input),
       offset_(offset),
-      distance_(distance) {}
+      distance_(distance),
+      at_crease_(std::make_unique<std::uint8_t[]>(points.size())) {
+  const auto mark = [this](std::uint32_t vertex) {
+    std::atomic_ref(at_crease_[vertex]).store(1, std::memory_order_relaxed);
+  };
+  tbb::parallel_for(std::size_t{0}, triangles.size(), [&](std::size_t f) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t from = triangles[f][k];
+      const std::uint32_t to = triangles[f][(k + 1) % 3];
+      if (from > to || !crosses_crease(from, to)) continue;  // the other face has it from `to`
+      mark(from);
+      mark(to);
+    }
+  });
+}
 
 // In a closed oriented surface each edge of a vertex leads out of it in one face. (The sum of all
 // across creases, and not one of them: which is chosen among equals would be up to the last bit. In
 // the order of the faces, as the sum depends on it.)
 Point3 CreaseSlide::facing(std::uint32_t vertex) const {
-  if (squared_norm(sides_[vertex]) == 0) return {};
-  std::vector<std::uint32_t> across;  // corners; almost always none
+  std::vector<std::uint32_t> across;  // corners
   for (const std::uint32_t corner : corners_at_[vertex]) {
     if (crosses_crease(vertex, next(corner))) across.push_back(corner);
   }
@@ -54,9 +70,10 @@ bool CreaseSlide::crosses_crease(std::uint32_t vertex, std::uint32_t other) cons
 }
 
 Point3 CreaseSlide::operator()(std::uint32_t vertex, const Point3& to) const {
+  if (at_crease_[vertex] == 0) return to;
   const Point3 across = facing(vertex);
   const double sum = std::sqrt(squared_norm(across));
-  if (!(sum > 0.5)) return to;  // not at a crease, or between sides that face each other
+  if (!(sum > 0.5)) return to;  // between sides that face each other
   const Point3 direction = (1 / sum) * across;
   const double step = kStep * offset_;
   // The whole way first.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -22,7 +23,8 @@ class CreaseSlide {
   // `points`: before the pull; corners_at: corners_by_point() of the triangles (incidence.h);
   // `sides`: by vertex, the direction from its nearest point on the input to it, of length 1, and 0
   // where it stays; `offset`: the distance of supported vertices from the input now, about, and
-  // `distance` that which the pull leaves. All of them must outlive this.
+  // `distance` that which the pull leaves. All of them must outlive this. Parallel; O(triangles).
+  // Precondition: the surface is closed and oriented.
   CreaseSlide(std::span<const Point3> points, const std::vector<Triangle>& triangles,
               const Buckets& corners_at, std::span<const Point3> sides,
               const NearestTriangle& input, double offset, double distance);
@@ -42,9 +44,9 @@ class CreaseSlide {
   [[nodiscard]] std::uint32_t next(std::uint32_t corner) const {
     return triangles_[corner / 3][(corner % 3 + 1) % 3];
   }
-  // The sum of the sides of neighbours across concave creases; 0: there is none.
+  // The sum of the sides of neighbours across concave creases.
   [[nodiscard]] Point3 facing(std::uint32_t vertex) const;
-  // Whether the way from a vertex to another one leads across a concave crease.
+  // Whether the way from a vertex to another one, or back, leads across a concave crease.
   [[nodiscard]] bool crosses_crease(std::uint32_t vertex, std::uint32_t other) const;
   [[nodiscard]] std::optional<Footing> step_down(const Footing& from, const Point3& facing,
                                                  double step) const;
@@ -56,6 +58,7 @@ class CreaseSlide {
   const NearestTriangle& input_;
   double offset_;
   double distance_;
+  std::unique_ptr<std::uint8_t[]> at_crease_;  // by vertex: 1 where an edge leads across one
 };
 
 }  // namespace cellocut

@@ -227,10 +227,11 @@ void add(IncidenceCounts& sum, const IncidenceCounts& part) {
 }  // namespace
 
 Buckets corners_by_point(const std::vector<Triangle>& triangles, std::size_t points) {
-  return {points, 3 * triangles.size(), [&](std::size_t corner) {
-            const Triangle& triangle = triangles[corner / 3];
-            return is_proper(triangle) ? triangle[corner % 3] : kNoBucket;
-          }};
+  return Buckets::of_groups(points, triangles.size(), [&](std::size_t f, const auto& put) {
+    const Triangle& triangle = triangles[f];
+    if (!is_proper(triangle)) return;
+    for (std::size_t k = 0; k < 3; ++k) put(triangle[k], 3 * f + k);
+  });
 }
 
 Incidence count_incidence(const std::vector<Triangle>& triangles, const Buckets& corners_at,

@@ -123,6 +123,8 @@ class Movement {
 
   // Those with one of the given faces.
   [[nodiscard]] Pairs intersecting_among(const Indices& faces, const LiveFaces& live) const {
+    std::vector<std::uint8_t> given(triangles_.size(), 0);
+    for (const std::uint32_t face : faces) given[face] = 1;
     tbb::enumerable_thread_specific<Pairs> found;
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, faces.size(), 64), [&](const auto& range) {
       Pairs& bad = found.local();
@@ -131,7 +133,8 @@ class Movement {
         const PreparedFace prepared(result_.points, triangles_[face]);
         live.find(live.box(face), [&](std::uint32_t other) {
           const Triangle& t = triangles_[other];
-          if (other == face || prepared.certainly_apart(result_.points, t)) return;
+          if (other == face || (given[other] != 0 && other < face)) return;  // found from there
+          if (prepared.certainly_apart(result_.points, t)) return;
           if (!faces_intersect(result_.points, triangles_[face], t)) return;
           bad.push_back(std::minmax(face, other));
         });

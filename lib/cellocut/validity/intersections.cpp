@@ -14,6 +14,7 @@
 #include <span>
 
 #include "cellocut/validity/box_tree.h"
+#include "cellocut/validity/eight_slabs.h"
 #include "cellocut/validity/face_filter.h"
 #include "cellocut/validity/float_frame.h"
 #include "cellocut/validity/triangle_pair.h"
@@ -234,6 +235,7 @@ void visit_intersecting_pairs(const BoxTree& tree, const std::vector<Point3>& po
     for (std::size_t leaf = range.begin(); leaf < range.end(); ++leaf) {
       const std::span<const std::uint32_t> faces = tree.ids_of_leaf(leaf);
       const StarsOfFaces settled(stars, triangles, faces);
+      const EightSlabs slabs(points, triangles, faces);
       candidates.clear();
       tree.visit_pairs_of_leaf(leaf, [&](unsigned places, std::uint32_t face) {
         candidates.push_back({face, places});
@@ -242,6 +244,8 @@ void visit_intersecting_pairs(const BoxTree& tree, const std::vector<Point3>& po
       for (const Candidate& candidate : candidates) {
         const Triangle& other = triangles[candidate.face];
         unsigned open = candidate.places & ~settled.settled(other);
+        if (open == 0) continue;
+        open &= ~slabs.certainly_beyond(points[other[0]], points[other[1]], points[other[2]]);
         for (; open != 0; open &= open - 1) {
           const auto place = static_cast<std::size_t>(std::countr_zero(open));
           const Triangle& face = triangles[faces[place]];

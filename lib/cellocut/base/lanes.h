@@ -17,7 +17,8 @@ inline unsigned bits_of(IntLanes comparison) {
 #ifdef __SSE2__
   return static_cast<unsigned>(_mm_movemask_ps(reinterpret_cast<__m128>(comparison)));
 #else
-  return (comparison[0] & 1) | (comparison[1] & 2) | (comparison[2] & 4) | (comparison[3] & 8);
+  return static_cast<unsigned>((comparison[0] & 1) | (comparison[1] & 2) | (comparison[2] & 4) |
+                               (comparison[3] & 8));
 #endif
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <cstring>
 
 #ifdef __SSE2__
 #include <emmintrin.h>
@@ -11,6 +12,13 @@ namespace cellocut {
 
 using FloatLanes __attribute__((vector_size(16))) = float;
 using IntLanes __attribute__((vector_size(16))) = std::int32_t;
+
+// Lane i is values[i].
+inline FloatLanes four_at(const float* values) {
+  FloatLanes lanes;
+  std::memcpy(&lanes, values, sizeof lanes);
+  return lanes;
+}
 
 // Bit i is set where lane i of a comparison holds (all of its bits are set then, or none).
 inline unsigned bits_of(IntLanes comparison) {

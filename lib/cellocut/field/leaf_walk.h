@@ -14,9 +14,6 @@ namespace cellocut {
 using LeafMask = std::array<std::uint64_t, kLeafEdge>;
 
 // `offset`: of the point in its leaf, as OpenVDB counts.
-inline void add_point(LeafMask& mask, std::uint32_t offset) {
-  mask[offset / 64] |= std::uint64_t{1} << (offset % 64);
-}
 inline bool has_point(const LeafMask& mask, std::uint32_t offset) {
   return (mask[offset / 64] >> (offset % 64) & 1) != 0;
 }

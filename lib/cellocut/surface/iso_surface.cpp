@@ -137,13 +137,10 @@ class PaddedValues {
 
  private:
   void set_row(int x, int y, std::uint16_t stored, const float* values) {
-    FloatLanes low;
-    FloatLanes high;
-    std::memcpy(&low, values, sizeof low);
-    std::memcpy(&high, values + 4, sizeof high);
     std::memcpy(&value_[padded(x, y, 0)], values, kEdge * sizeof(float));
     stored_[x][y] |= stored;
-    inside_[x][y] |= static_cast<std::uint16_t>(bits_of(low < 0) | bits_of(high < 0) << 4U);
+    inside_[x][y] |= static_cast<std::uint16_t>(bits_of(four_at(values) < 0) |
+                                                bits_of(four_at(values + 4) < 0) << 4U);
   }
   void set_last(int x, int y, unsigned stored, float value) {
     value_[padded(x, y, kEdge)] = value;

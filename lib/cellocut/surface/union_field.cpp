@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <cstring>
 #include <functional>
 #include <memory>
 
@@ -74,9 +73,7 @@ class BlockPhi {
     }
     const float* values = leaf_->buffer().data();
     for (std::uint32_t n = 0; n < FieldLeaf::SIZE; n += 4) {
-      FloatLanes four;
-      std::memcpy(&four, values + n, sizeof four);
-      mask[n / 64] |= std::uint64_t{bits_of(four > 0)} << (n % 64);
+      mask[n / 64] |= std::uint64_t{bits_of(four_at(values + n) > 0)} << (n % 64);
     }
     return mask;
   }

@@ -13,7 +13,6 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <functional>
 #include <limits>
 #include <memory>
@@ -44,20 +43,10 @@ struct alignas(32) FloatBox {
   }
 };
 
-// Four comparisons at once (a vector type of GCC and Clang), and no branch.
+// Four comparisons at once, and no branch.
 inline bool overlap(const FloatBox& a, const FloatBox& b) {
-  using Lanes __attribute__((vector_size(4 * sizeof(float)))) = float;
-  using Halves __attribute__((vector_size(4 * sizeof(float)))) = long long;
-  Lanes a_low;
-  Lanes a_high;
-  Lanes b_low;
-  Lanes b_high;
-  std::memcpy(&a_low, a.low.data(), sizeof a_low);
-  std::memcpy(&a_high, a.high.data(), sizeof a_high);
-  std::memcpy(&b_low, b.low.data(), sizeof b_low);
-  std::memcpy(&b_high, b.high.data(), sizeof b_high);
-  const auto meet = reinterpret_cast<Halves>((a_low <= b_high) & (b_low <= a_high));
-  return (meet[0] & meet[1]) == -1;
+  return bits_of((four_at(a.low.data()) <= four_at(b.high.data())) &
+                 (four_at(b.low.data()) <= four_at(a.high.data()))) == 0xFU;
 }
 
 // The boxes of the children of a node, coordinate by coordinate.

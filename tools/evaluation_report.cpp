@@ -119,7 +119,9 @@ std::string reference_line(const EvaluatedReference& reference) {
 
 Json or_null(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
 
-Json distances_json(const std::optional<DistanceSummary>& found, double unit) {
+// `normals`: the mean cosine of the same samples.
+Json one_way_json(const std::optional<DistanceSummary>& found, const std::optional<double>& normals,
+                  double unit) {
   if (!found) return nullptr;
   const auto in = [&](double length) {
     return Json{{"median", length * found->median},
@@ -128,7 +130,20 @@ Json distances_json(const std::optional<DistanceSummary>& found, double unit) {
                 {"max", length * found->largest},
                 {"mean_square", length * length * found->mean_square}};
   };
-  return {{"relative", in(1)}, {"input_units", in(unit)}};
+  return {{"relative", in(1)}, {"input_units", in(unit)}, {"normals", or_null(normals)}};
+}
+
+Json distances_json(const Evaluation& found, double unit) {
+  const auto to = [unit](const Agreement& kind) {
+    return one_way_json(kind.to_reference, kind.normals_to_reference, unit);
+  };
+  const auto from = [unit](const Agreement& kind) {
+    return one_way_json(kind.from_reference, kind.normals_from_reference, unit);
+  };
+  return {{"to_reference", to(found.sampled)},
+          {"from_reference", from(found.sampled)},
+          {"to_reference_p2s", to(found.to_surface)},
+          {"from_reference_p2s", from(found.to_surface)}};
 }
 
 Json f1_json(const Evaluation& found, const std::vector<double>& thresholds) {
@@ -164,7 +179,6 @@ Json volume_json(const EvaluatedMesh& mesh) {
 Json mesh_json(const EvaluatedMesh& mesh, const EvaluationReport& report) {
   const Agreement& sampled = mesh.evaluation.sampled;
   const Agreement& p2s = mesh.evaluation.to_surface;
-  const double unit = report.reference.unit;
   Json json{{"path", mesh.path},
             {"points", mesh.surface.points},
             {"triangles", mesh.surface.triangles},
@@ -179,11 +193,7 @@ Json mesh_json(const EvaluatedMesh& mesh, const EvaluationReport& report) {
             {"hd_p2s", or_null(p2s.hausdorff)},
             {"anc_p2s", or_null(p2s.normal_consistency)},
             {"f1", f1_json(mesh.evaluation, report.options.thresholds)},
-            {"distances",
-             {{"to_reference", distances_json(sampled.to_reference, unit)},
-              {"from_reference", distances_json(sampled.from_reference, unit)},
-              {"to_reference_p2s", distances_json(p2s.to_reference, unit)},
-              {"from_reference_p2s", distances_json(p2s.from_reference, unit)}}}};
+            {"distances", distances_json(mesh.evaluation, report.reference.unit)}};
   if (report.images) json["images"] = images_json(mesh.images);
   if (report.volume_points > 0) json["volume_iou"] = volume_json(mesh);
   if (report.counts) json["output"] = output_json(mesh.surface, mesh.path);

@@ -46,6 +46,7 @@ class Evaluate(ProgramCase):
         for way in ("to_reference_p2s", "from_reference_p2s"):
             for length in ("median", "p95", "mean", "max"):
                 self.assertAlmostEqual(mesh["distances"][way]["relative"][length], 0.25, delta=1e-12)
+            self.assertEqual(mesh["distances"][way]["normals"], 1)
         reference = report["reference"]
         self.assertEqual((reference["kind"], reference["unit"], reference["area"]), ("mesh", 1, 1))
 

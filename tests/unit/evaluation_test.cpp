@@ -112,6 +112,22 @@ TEST(Evaluation, NormalsOfATiltedSheet) {
   EXPECT_TRUE(found.sampled.f1.empty());
 }
 
+TEST(Evaluation, NormalsOfEachWay) {
+  // Of the reference, half is the sheet and half a wall far below it, as large: all of the mesh
+  // agrees with what is nearest, and half of the reference. 40,000 samples: within 0.01.
+  TriangleSoup reference = sheet(1, 0);
+  reference.points.insert(reference.points.end(),
+                          {{0.5, 0, -2}, {0.5, 1, -2}, {0.5, 1, -1}, {0.5, 0, -1}});
+  reference.triangles.insert(reference.triangles.end(), {{4, 5, 6}, {4, 6, 7}});
+  const Evaluation found = evaluate(sheet(1, 0), reference, {.samples = 40'000, .thresholds = {}});
+  for (const Agreement* agreement : {&found.sampled, &found.to_surface}) {
+    EXPECT_NEAR(*agreement->normals_to_reference, 1, 1e-14);
+    EXPECT_NEAR(*agreement->normals_from_reference, 0.5, 0.01);
+    EXPECT_EQ(*agreement->normal_consistency,
+              0.5 * (*agreement->normals_to_reference + *agreement->normals_from_reference));
+  }
+}
+
 // ---- against plain loops ------------------------------------------------------------------------
 
 // The nearest of all candidates. On an edge or a corner several faces are nearest, and rounding

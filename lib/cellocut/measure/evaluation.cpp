@@ -197,14 +197,21 @@ double f1_percent(const OneWay& to, const OneWay& from, double threshold) {
 Agreement agreement(const std::optional<OneWay>& to, const std::optional<OneWay>& from,
                     const std::vector<double>& thresholds) {
   Agreement result;
-  if (to) result.to_reference = summarise(to->distances);
-  if (from) result.from_reference = summarise(from->distances);
+  if (to) {
+    result.to_reference = summarise(to->distances);
+    result.normals_to_reference = mean_cosine(to->cosines);
+  }
+  if (from) {
+    result.from_reference = summarise(from->distances);
+    result.normals_from_reference = mean_cosine(from->cosines);
+  }
   if (!to || !from) return result;
   result.chamfer = result.to_reference->mean_square + result.from_reference->mean_square;
   result.hausdorff = std::max(result.to_reference->largest, result.from_reference->largest);
-  const std::optional<double> to_cosine = mean_cosine(to->cosines);
-  const std::optional<double> from_cosine = mean_cosine(from->cosines);
-  if (to_cosine && from_cosine) result.normal_consistency = 0.5 * (*to_cosine + *from_cosine);
+  if (result.normals_to_reference && result.normals_from_reference) {
+    result.normal_consistency =
+        0.5 * (*result.normals_to_reference + *result.normals_from_reference);
+  }
   for (const double threshold : thresholds) {
     result.f1.push_back(f1_percent(*to, *from, threshold));
   }

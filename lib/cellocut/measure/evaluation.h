@@ -47,9 +47,12 @@ struct Agreement {
   std::optional<double> chamfer;
   // HD: the larger of the two largest.
   std::optional<double> hausdorff;
-  // ANC, 0 to 1: the absolute cosine between the normals at a sample and at its nearest point, mean
-  // over the samples with two normals, both ways averaged. To a surface the normal is that of the
-  // face; where the nearest point is on an edge or a corner, rounding decides between its faces.
+  // The absolute cosine between the normals at a sample and at its nearest point, mean over the
+  // samples with two normals. To a surface the normal is that of the face; where the nearest point
+  // is on an edge or a corner, rounding decides between its faces.
+  std::optional<double> normals_to_reference;
+  std::optional<double> normals_from_reference;
+  // ANC, 0 to 1: the mean of both.
   std::optional<double> normal_consistency;
   // F1 in percent, one for each threshold (empty: absent): the harmonic mean of the shares of
   // samples, each way, that lie nearer than the threshold (Knapitsch et al., Tanks and Temples,

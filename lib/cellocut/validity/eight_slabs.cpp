@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace cellocut {
 
@@ -19,10 +20,10 @@ float size_of(const FloatPoint& p) {
   return std::max({std::fabs(p[0]), std::fabs(p[1]), std::fabs(p[2])});
 }
 
-// Components of at most 1; zero where there is no such direction.
+// Components of at most 1; zero where there is no such direction, or none that can be told.
 FloatPoint direction_of(const Point3& normal) {
   const double size = std::max({std::fabs(normal[0]), std::fabs(normal[1]), std::fabs(normal[2])});
-  if (!(size > 0) || !std::isfinite(size)) return {};
+  if (!(size >= std::numeric_limits<double>::min()) || !std::isfinite(size)) return {};
   return about((1 / size) * normal, {});
 }
 

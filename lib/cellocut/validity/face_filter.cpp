@@ -33,9 +33,15 @@ int CertainPlane::certain_side(const Point3& p) const {
   // rounding, each product by two more, and four sums follow: below 10 u times each product, where
   // u is the unit roundoff, so below 60 u (reach x reach x reach) in all. Twice that is asked for.
   double bound = 120 * kUnitRoundoff;
-  for (int axis = 0; axis < 3; ++axis) bound *= std::max(reach_[axis], std::fabs(w[axis]));
-  // Below this, products may have underflowed.
-  if (!(std::fabs(height) > bound) || !(bound > 1e-250)) return 0;
+  double far = 1;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double reach = std::max(reach_[axis], std::fabs(w[axis]));
+    bound *= reach;
+    far = std::max(far, reach);
+  }
+  // Products that underflow add less than 1e-322 far to the error: the normal's are multiplied by
+  // w. (Where one overflows, the height is infinite or no number, but the bound need not be.)
+  if (!(std::fabs(height) > bound) || !(bound > 1e-250 * far) || !std::isfinite(height)) return 0;
   return height > 0 ? 1 : -1;
 }
 

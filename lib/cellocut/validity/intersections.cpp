@@ -34,7 +34,8 @@ class FacePlane {
       edge = std::fmax(edge, std::fmax(std::fabs(b[axis] - a[axis]), std::fabs(c[axis] - a[axis])));
       sum += std::fabs(normal_[axis]);
     }
-    // Far above the rounding of the boxes (2^-24) and of the normal (some 2^-52 times the edges).
+    // Far above the rounding of the boxes (2^-24) and of the normal (some 2^-52 times the edges): a
+    // box that the face itself meets holds a point of it, whose height should be 0.
     slack_ = 1e-5 * sum + 1e-14 * edge;
   }
   [[nodiscard]] bool may_cut(const FloatBox& box) const {

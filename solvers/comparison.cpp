@@ -61,6 +61,8 @@ std::vector<SolverRun> compare_solvers(const CutProblem& problem,
   if (options.repeats < 1 || options.repeats > 1000) {
     throw UsageError("repeats: give a number from 1 to 1000");
   }
+  // Written so that a NaN fails.
+  if (!(options.seconds_limit >= 0)) throw UsageError("time limit: give seconds, 0 for none");
   problem.validate();
   std::vector<std::unique_ptr<CutSolver>> solvers;
   std::vector<SolverRun> runs;

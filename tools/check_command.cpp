@@ -2,6 +2,7 @@
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -48,8 +49,19 @@ void print_report(const SurfaceReport& report) {
   fmt::print("{}\n", report.valid() ? "valid: closed, oriented, manifold, embedded" : "not valid");
 }
 
+void warn_of_what_is_missing(const CheckArguments& a, const TriangleSoup& mesh,
+                             const SurfaceReport& report) {
+  if (mesh.skipped_polygons > 0) {
+    print_error(fmt::format("{}: warning: left out {} faces of fewer than three corners", a.input,
+                            mesh.skipped_polygons));
+  }
+  if (!std::isfinite(report.volume) || !std::isfinite(report.area)) {
+    print_error(fmt::format("{}: warning: volume or area is beyond the range of numbers", a.input));
+  }
+}
+
 int run_check(const CheckArguments& a) {
-  require_writable({a.common.json});
+  require_writable({a.common.json}, {a.input});
   const ThreadLimit limit(a.common.threads);
   TerminalObserver observer(a.common);
   observer.stage("read");
@@ -57,6 +69,7 @@ int run_check(const CheckArguments& a) {
   observer.stage("validity");
   const SurfaceReport report = inspect_surface(mesh, SurfaceCheckOptions{.observer = &observer});
   observer.clear();
+  if (!a.common.quiet) warn_of_what_is_missing(a, mesh, report);
   if (!a.common.json.empty()) {
     const nlohmann::ordered_json json{{"version", kCellocutVersion},
                                       {"output", output_json(report, a.input)}};

@@ -291,7 +291,7 @@ int run_compare(CompareArguments& a) {
   const std::filesystem::path folder(a.folder);
   const std::string csv = (folder / "compare.csv").string();
   const std::string json = (folder / "compare.json").string();
-  require_writable({csv, json, a.common.json, a.html});
+  require_writable({csv, json, a.common.json, a.html}, a.inputs);
   const ThreadLimit limit(a.common.threads);
   TerminalObserver observer(a.common);
   a.comparison.observer = &observer;

@@ -91,7 +91,7 @@ int run_damage(DamageArguments& a) {
   const std::optional<MeshFormat> format =
       a.output_format.empty() ? format_of_path(a.output) : format_of_name(a.output_format);
   if (!format) throw UsageError(a.output + ": cannot tell the mesh format; give --output-format");
-  require_writable({a.output, a.common.json});
+  require_writable({a.output, a.common.json}, {a.mesh});
   const ThreadLimit limit(a.common.threads);
   TerminalObserver observer(a.common);
   observer.stage("read");

@@ -31,7 +31,9 @@ int run_evaluate(EvaluateArguments& a) {
   a.work.validate();
   if (a.pairs.empty() && a.meshes.empty()) throw UsageError("meshes is required, or --pairs");
   if (a.pairs.empty() && a.reference.empty()) throw UsageError("--reference is required");
-  require_writable({a.common.json});
+  std::vector<std::string> inputs = a.meshes;
+  inputs.insert(inputs.end(), {a.reference, a.pairs});
+  require_writable({a.common.json}, inputs);
   const ThreadLimit limit(a.common.threads);
   a.work.images = a.images.load();
   if (!a.pairs.empty()) return evaluate_pairs(a.pairs, a.work, a.common);

@@ -4,6 +4,7 @@
 
 #include <cstdio>
 #include <new>
+#include <system_error>
 
 #include "cellocut/base/errors.h"
 
@@ -31,6 +32,10 @@ ErrorLine describe_error(const std::exception& error, const std::string& input) 
   }
   if (dynamic_cast<const std::bad_alloc*>(&error) != nullptr) {
     return line(kLimit, input, "out of memory; try a lower --resolution");
+  }
+  // A thread that cannot be started, or standard output that is full.
+  if (dynamic_cast<const std::system_error*>(&error) != nullptr) {
+    return line(kLimit, {}, error.what());
   }
   return line(kNoGuarantee, input, error.what());
 }

@@ -1,4 +1,7 @@
 // The `cellocut` program: picks the subcommand, runs it, turns exceptions into exit codes.
+#include <poll.h>
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <limits>
@@ -15,6 +18,13 @@
 
 namespace cellocut::tools {
 namespace {
+
+// What was printed has arrived, or whoever was to read it has gone away.
+bool is_output_lost() {
+  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return false;
+  pollfd reader{STDOUT_FILENO, POLLOUT, 0};
+  return poll(&reader, 1, 0) < 1 || (reader.revents & POLLERR) == 0;
+}
 
 int run_program(int argc, char** argv) {
   CLI::App program{
@@ -42,7 +52,10 @@ int run_program(int argc, char** argv) {
   for (const Command& command : commands) {
     if (!command.app->parsed()) continue;
     try {
-      return command.run();
+      const int code = command.run();
+      if (code != kDone || !is_output_lost()) return code;
+      print_error("standard output: cannot be written");
+      return kLimit;
     } catch (const std::exception& error) {
       return report_error(error, command.input ? command.input() : std::string());
     }

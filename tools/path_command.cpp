@@ -170,13 +170,13 @@ void check_outputs(const PathArguments& a) {
     }
   }
   if (fs::is_directory(folder)) {
-    require_writable({(folder / "path.json").string(), a.common.json});
+    require_writable({(folder / "path.json").string(), a.common.json}, {a.input});
   } else if (fs::exists(folder)) {
     throw UsageError(a.folder + ": not a folder");
   } else {
     fs::path name = folder.lexically_normal();
     if (!name.has_filename()) name = name.parent_path();  // "out/"
-    require_writable({name.string(), a.common.json});
+    require_writable({name.string(), a.common.json}, {a.input});
   }
 }
 

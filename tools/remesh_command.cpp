@@ -162,6 +162,10 @@ void complete_options(RemeshArguments& a) {
     throw UsageError(a.problem + ": the cut problem is written as .max or .bbk");
   }
   require_writable({a.output, a.vtu, a.vtp, a.common.json, a.keep_invalid, a.problem});
+  // (The surface may take the place of the input: it is whole before it does.)
+  require_writable({a.vtu, a.vtp, a.common.json, a.keep_invalid, a.problem}, {a.input});
+  require_folder(a.stages);
+  require_folder(a.stage_surfaces);
 }
 
 void print_summary(const RemeshResult& result, const RemeshArguments& a,

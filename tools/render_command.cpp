@@ -116,7 +116,7 @@ int run_render(const RenderArguments& a) {
   for (const ViewPaths& view : paths) {
     for (const auto& path : {view.clay, view.depth, view.normals}) outputs.push_back(path);
   }
-  require_writable(outputs);
+  require_writable(outputs, {a.mesh, a.reference});
   const ThreadLimit limit(a.common.threads);
   TerminalObserver observer(a.common);
 

@@ -45,7 +45,7 @@ int run_scan(const ScanArguments& a) {
   if (a.output != "-" && format_of_path(a.output) != MeshFormat::ply) {
     throw UsageError(a.output + ": points are written as .ply");
   }
-  require_writable({a.output, a.common.json});
+  require_writable({a.output, a.common.json}, {a.mesh});
   const ThreadLimit limit(a.common.threads);
   TerminalObserver observer(a.common);
   observer.stage("read");

@@ -135,8 +135,9 @@ std::vector<viz::Plane> list_planes(const SectionArguments& a, const Box3& box) 
 
 int run_section(const SectionArguments& a) {
   for (const std::string& path : a.outputs) picture_format(path);
-  require_writable(a.outputs);
-  require_writable({a.common.json});
+  std::vector<std::string> outputs = a.outputs;
+  outputs.push_back(a.common.json);
+  require_writable(outputs, a.inputs);
   const ThreadLimit limit(a.common.threads);
   const Inputs inputs = read_inputs(a);
   const std::vector<viz::Plane> planes = list_planes(a, box_of(inputs));

@@ -6,8 +6,10 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <cerrno>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <optional>
 #include <system_error>
@@ -30,6 +32,17 @@ extern "C" void on_interrupt(int signal) {
 }
 
 constexpr int kStages = 9;  // of a remesh, for the bar
+
+namespace fs = std::filesystem;
+
+// By name, as far as that can be told, or by what is there; a pipe or a terminal is no such file.
+bool is_same_file(const std::string& a, const std::string& b) {
+  if (a.empty() || b.empty() || a == "-" || b == "-") return false;
+  std::error_code unknown;
+  if (fs::exists(a, unknown) && !fs::is_regular_file(a, unknown)) return false;
+  return fs::equivalent(a, b, unknown) ||
+         fs::weakly_canonical(a, unknown) == fs::weakly_canonical(b, unknown);
+}
 
 }  // namespace
 
@@ -91,12 +104,21 @@ void install_signal_handlers() {
   std::signal(SIGPIPE, SIG_IGN);
 }
 
-void require_writable(const std::vector<std::string>& paths) {
+void require_writable(const std::vector<std::string>& paths,
+                      const std::vector<std::string>& inputs) {
   for (std::size_t i = 0; i < paths.size(); ++i) {
+    if (paths[i].empty()) continue;
     for (std::size_t j = 0; j < i; ++j) {
-      if (!paths[i].empty() && paths[i] == paths[j]) {
-        throw UsageError(paths[i] == "-" ? "only one output can be standard output"
-                                         : paths[i] + ": two outputs cannot be the same file");
+      if (paths[i] == "-" && paths[j] == "-") {
+        throw UsageError("only one output can be standard output");
+      }
+      if (is_same_file(paths[i], paths[j])) {
+        throw UsageError(paths[i] + ": two outputs cannot be the same file");
+      }
+    }
+    for (const std::string& input : inputs) {
+      if (is_same_file(paths[i], input)) {
+        throw UsageError(paths[i] + ": an output cannot be the input; give it another name");
       }
     }
   }
@@ -110,9 +132,22 @@ void require_writable(const std::vector<std::string>& paths) {
   }
 }
 
+void require_folder(const std::string& path) {
+  if (path.empty()) return;
+  std::error_code unknown;
+  fs::path place = fs::absolute(path).lexically_normal();
+  while (!fs::exists(place, unknown) && place.has_relative_path()) place = place.parent_path();
+  if (!fs::is_directory(place, unknown)) throw UsageError(path + ": not a folder");
+  std::string probe = (place / ".cellocut-XXXXXX").string();
+  if (mkdtemp(probe.data()) == nullptr) {
+    throw UsageError(path + ": cannot be written into: " + std::generic_category().message(errno));
+  }
+  rmdir(probe.c_str());
+}
+
 TriangleSoup read_input(const std::string& path, const std::string& format) {
   std::error_code unknown;
-  if (std::filesystem::is_directory(path, unknown)) throw InputError("is a directory", path);
+  if (fs::is_directory(path, unknown)) throw InputError("is a directory", path);
   std::optional<MeshFormat> named;
   if (!format.empty()) named = format_of_name(format);
   return read_mesh(path, named);

@@ -67,9 +67,15 @@ class ThreadLimit {
 // signal.
 void install_signal_handlers();
 
-// Errors: UsageError where a file could not be created beside a path: before the work, not after
-// it. Empty paths and "-" are fine.
-void require_writable(const std::vector<std::string>& paths);
+// Errors: UsageError where a file could not be created beside a path, before the work and not after
+// it, or where it is the same file as another one or as one of the inputs. Empty paths and "-" are
+// fine.
+void require_writable(const std::vector<std::string>& paths,
+                      const std::vector<std::string>& inputs = {});
+
+// Errors: UsageError where the folder is not there and cannot be made, or nothing can be put into
+// it. An empty path is fine.
+void require_folder(const std::string& path);
 
 // read_mesh() for a path of the command line; `format` is empty where its name tells it.
 // Errors: as read_mesh(); InputError for a directory, whatever its name.

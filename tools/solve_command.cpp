@@ -121,7 +121,7 @@ int run_solve(const SolveArguments& a) {
     output_format = problem_format_of_path(a.problem);
     if (!output_format) throw UsageError(a.problem + ": use .max or .bbk");
   }
-  require_writable({a.solution, a.problem, a.common.json});
+  require_writable({a.solution, a.problem, a.common.json}, {a.input, a.check});
   const std::unique_ptr<CutSolver> solver = solvers::make(a.solver);
   RelaxationOptions relaxation = a.relaxation;
   relaxation.crossover = !a.no_crossover;

@@ -77,6 +77,22 @@ class FullDisk(ProgramCase):
         self.fail_with(6, r"\Acellocut: /dev/full: cannot write: No space left", "remesh", "holed.obj",
                        "-o", "/dev/full", "--output-format", "obj", "--quiet", *COARSE)
 
+    def test_full_standard_output(self):
+        for command in (("check", "out.obj"), ("list",)):
+            with self.subTest(command):
+                self.succeed("remesh", "holed.obj", "-o", "out.obj", "--quiet", *COARSE)
+                with open("/dev/full", "wb") as full:
+                    run = subprocess.run([PROGRAM, *command], cwd=self.folder, stdout=full, stderr=subprocess.PIPE,
+                                         timeout=300, check=False)
+                self.assertEqual((run.returncode, run.stderr), (6, b"cellocut: standard output: cannot be written\n"))
+
+    def test_reader_that_has_had_enough(self):
+        read, write = os.pipe()
+        os.close(read)
+        run = subprocess.run([PROGRAM, "list"], stdout=write, stderr=subprocess.PIPE, timeout=300, check=False)
+        os.close(write)
+        self.assertEqual((run.returncode, run.stderr), (0, b""))
+
     def test_empty_solid_and_no_room(self):
         self.put("out.json", OLD)
         run = self.run_program("remesh", "holed.obj", "-o", "out.obj", "--no-unary", "--surface", "sdf", *COARSE, "--json",

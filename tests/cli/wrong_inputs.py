@@ -1,6 +1,7 @@
 """Inputs and arguments that are wrong: the exit code, one line, nothing written."""
 import json
 import os
+import resource
 import struct
 
 from program import (BOXES_AT_AN_EDGE, COARSE, HAS_VTU, HOLED_BOX, OLD, ProgramCase, obj_text)
@@ -151,7 +152,45 @@ class Arguments(ProgramCase):
         self.fail_with(2, "bogus|subcommand", "bogus", outputs=())
 
 
+class OutputsOverInputs(ProgramCase):
+    def test_no_output_but_the_surface_may_be_the_input(self):
+        os.symlink("holed.obj", self.path("link.obj"))
+        before = self.get("holed.obj")
+        commands = [("remesh", "holed.obj", "-o", "out.obj", "--json", "./holed.obj", *COARSE),
+                    ("check", "holed.obj", "--json", "link.obj"),
+                    ("scan", "holed.obj", "-o", "out.ply", "--json", "holed.obj"),
+                    ("evaluate", "holed.obj", "--reference", "holed.obj", "--json", "holed.obj")]
+        for command in commands:
+            with self.subTest(command):
+                self.assert_one_line(self.run_program(*command), 2, "an output cannot be the input")
+                self.assertEqual(self.get("holed.obj"), before)
+                self.assertEqual(self.names(), ["holed.obj", "link.obj"])
+
+    def test_folders_are_looked_at_before_the_work(self):
+        for option in ("--save-stages", "--stage-surfaces"):
+            for folder in ("holed.obj", "holed.obj/stages", "/proc/stages"):
+                with self.subTest(option=option, folder=folder):
+                    run = self.run_program("remesh", "holed.obj", "-o", "out.obj", *COARSE, option, folder)
+                    self.assert_one_line(run, 2, "not a folder|cannot be written into")
+                    self.assertEqual(self.names(), ["holed.obj"])
+
+
 class SurfaceOptions(ProgramCase):
+    def test_error_allowed_far_from_the_origin(self):
+        # Two needles: the faces of their slabs could not be divided as finely as their distance asks for.
+        self.put("needles.obj", """
+            v 10000.100076490315 9999.617636118084 9999.8219701848
+            v 9999.698936827364 10000.741644343128 9999.135468139662
+            v 9999.698936827364 10000.741644343128 9999.13546852849
+            v 9999.716246115626 9999.832694821991 10000.24313717056
+            v 10000.493753877701 9999.345800672309 9999.13578017708
+            v 10000.493753877352 9999.345800672309 9999.135745710926
+            f 1 2 3
+            f 4 5 6
+        """)
+        self.succeed("remesh", "needles.obj", "-o", "out.obj", "-R", "24", "--max-error", "0.2", "--quiet",
+                     preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_CPU, (60, 60)))
+
     def test_what_does_not_go_together(self):
         for wrong, words in (((("--no-unary",)), "--surface sdf or cells"),
                              ((("--no-thickening",)), "--surface sdf or cells"),

@@ -15,6 +15,10 @@ namespace {
 
 __extension__ using Wide = __int128;
 
+// So that the terms of a quotient of two decimals fit into 63 bits: with one digit more, 10 times
+// as much, times 10 kLargestLambdaTerm.
+constexpr std::int64_t kLargestDecimal = std::int64_t{1} << 36;
+
 // A decimal or integer as numerator / denominator, both exact.
 Rational parse_decimal(std::string_view text) {
   std::int64_t numerator = 0;
@@ -26,8 +30,7 @@ Rational parse_decimal(std::string_view text) {
       fraction = true;
       continue;
     }
-    if (c < '0' || c > '9' || numerator > (std::int64_t{1} << 40) ||
-        denominator > kLargestLambdaTerm) {
+    if (c < '0' || c > '9' || numerator > kLargestDecimal || denominator > kLargestLambdaTerm) {
       return {0, 1};
     }
     digits = true;

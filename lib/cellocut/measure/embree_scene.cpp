@@ -6,7 +6,7 @@ namespace cellocut {
 
 void EmbreeScene::build(std::size_t count, void* data, Bounds bounds, Visit visit) {
   device_ = rtcNewDevice(nullptr);
-  if (device_ == nullptr) throw Error("Embree cannot be started");
+  if (device_ == nullptr) throw LimitError("Embree cannot be started: too little memory");
   scene_ = rtcNewScene(device_);
   rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST);
   RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_USER);

@@ -100,15 +100,19 @@ SurfaceDistance measure_surface_distance(const TriangleSoup& first, const Triang
     throw UsageError("there is no distance to a surface without faces");
   }
   if (!(tolerance > 0)) throw UsageError("the tolerance of a distance must be positive");
-  const Box3 box = bounding_box(first);
+  Box3 box = bounding_box(first);
   const Box3 other = bounding_box(second);
-  double size = 0;
   for (int axis = 0; axis < 3; ++axis) {
-    size = std::max(size, std::max(box.high[axis], other.high[axis]) -
-                              std::min(box.low[axis], other.low[axis]));
+    box.low[axis] = std::min(box.low[axis], other.low[axis]);
+    box.high[axis] = std::max(box.high[axis], other.high[axis]);
   }
-  Direction forward(first, second, size, tolerance, observer);
-  Direction backward(second, first, size, tolerance, observer);
+  const double size = box.longest_edge();
+  // From the middle of both: far from the origin, parts could not become as small as they have to.
+  const Point3 middle = 0.5 * box.low + 0.5 * box.high;
+  const TriangleSoup one = seen_from(middle, first);
+  const TriangleSoup two = seen_from(middle, second);
+  Direction forward(one, two, size, tolerance, observer);
+  Direction backward(two, one, size, tolerance, observer);
   const double lower = std::max(forward.measure_points(), backward.measure_points());
   SurfaceDistance distance;
   distance.forward = forward.measure_faces(lower);

@@ -1,6 +1,7 @@
 #include "cellocut/mesh/triangle_soup.h"
 
 #include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
 #include <tbb/parallel_reduce.h>
 
 namespace cellocut {
@@ -44,6 +45,15 @@ Box3 bounding_box(const std::vector<Point3>& points, const std::vector<Triangle>
 Box3 bounding_box(const std::vector<Point3>& points) {
   return box_in_parallel(points.size(), Box3{points.front(), points.front()},
                          [&](Box3& box, std::size_t i) { box.include(points[i]); });
+}
+
+TriangleSoup seen_from(const Point3& origin, const TriangleSoup& soup) {
+  TriangleSoup seen;
+  seen.points.resize(soup.points.size());
+  tbb::parallel_for(std::size_t{0}, seen.points.size(),
+                    [&](std::size_t i) { seen.points[i] = soup.points[i] - origin; });
+  seen.triangles = soup.triangles;
+  return seen;
 }
 
 }  // namespace cellocut

@@ -35,4 +35,7 @@ Box3 bounding_box(const std::vector<Point3>& points, const std::vector<Triangle>
 // The box of all points. Precondition: not empty.
 Box3 bounding_box(const std::vector<Point3>& points);
 
+// The points and faces with `origin` as the new one, each coordinate rounded once. Parallel.
+TriangleSoup seen_from(const Point3& origin, const TriangleSoup& soup);
+
 }  // namespace cellocut

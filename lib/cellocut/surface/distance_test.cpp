@@ -7,10 +7,16 @@
 namespace cellocut {
 
 DistanceTest::DistanceTest(const TriangleSoup& surface, const CollapseMesh& mesh, double bound)
-    : points_(surface.points),
+    : DistanceTest(bounding_box(surface), surface, mesh, bound) {}
+
+// Seen from the middle of the box, as in surface_distance.cpp.
+DistanceTest::DistanceTest(const Box3& box, const TriangleSoup& surface, const CollapseMesh& mesh,
+                           double bound)
+    : surface_(seen_from(0.5 * box.low + 0.5 * box.high, surface)),
+      points_(surface_.points),
       bound_(bound),
-      nearest_(surface),
-      full_(surface, nearest_, bounding_box(surface).longest_edge()),
+      nearest_(surface_),
+      full_(surface_, nearest_, box.longest_edge()),
       first_(mesh.faces().size(), kNone),
       next_(surface.points.size(), kNone) {}
 

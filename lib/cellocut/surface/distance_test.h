@@ -19,7 +19,9 @@ namespace cellocut {
 // The second is all of that direction; of the first, what lies between vertices is left open.
 class DistanceTest {
  public:
-  // Both must outlive this; `bound` in the units of the surface. O(n log n).
+  DistanceTest(const DistanceTest&) = delete;
+  DistanceTest& operator=(const DistanceTest&) = delete;
+  // The mesh must outlive this; `bound` in the units of the surface. O(n log n).
   DistanceTest(const TriangleSoup& surface, const CollapseMesh& mesh, double bound);
 
   // Whether the vertices removed so far at the faces of this collapse, and the one it removes, stay
@@ -33,11 +35,15 @@ class DistanceTest {
  private:
   static constexpr std::uint32_t kNone = 0xFFFFFFFFU;
 
+  DistanceTest(const Box3& box, const TriangleSoup& surface, const CollapseMesh& mesh,
+               double bound);
+
   template <class Visit>
   void visit_face(std::uint32_t face, const Visit& visit) const {
     for (std::uint32_t v = first_[face]; v != kNone; v = next_[v]) visit(v);
   }
 
+  TriangleSoup surface_;
   const std::vector<Point3>& points_;
   double bound_;
   NearestTriangle nearest_;

@@ -172,7 +172,7 @@ void RayScene::Scene::occlude(const RTCOccludedFunctionNArguments* a) {
 
 void RayScene::Scene::build() {
   device = rtcNewDevice(nullptr);
-  if (device == nullptr) throw Error("Embree cannot be started");
+  if (device == nullptr) throw LimitError("Embree cannot be started: too little memory");
   scene = rtcNewScene(device);
   rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
   RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);

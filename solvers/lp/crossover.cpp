@@ -8,6 +8,21 @@ namespace cellocut::solvers::lp {
 
 namespace {
 
+bool fits(const CutProblem& problem) {
+  std::int64_t left = kCapacityLimit - 1;
+  const auto take = [&left](std::int64_t amount) {
+    left = amount > left ? -1 : left - amount;
+    return left >= 0;
+  };
+  for (const CutEdge& edge : problem.edges) {
+    if (!take(edge.capacity) || !take(edge.reverse_capacity)) return false;
+  }
+  for (std::size_t i = 0; i < problem.node_count(); ++i) {
+    if (!take(problem.to_source[i]) || !take(problem.to_sink[i])) return false;
+  }
+  return true;
+}
+
 class Completion {
  public:
   Completion(const CutProblem& problem, const ResidualGraph& graph, IntegerFlow& flow,
@@ -17,6 +32,10 @@ class Completion {
     rest_.to_source.resize(graph.node_count());
     rest_.to_sink.resize(graph.node_count());
   }
+
+  // Whether a move was left out because it would have held more than any problem may: surplus and
+  // lack of a flow that is far from balanced are as large as they like.
+  [[nodiscard]] bool too_large() const { return too_large_; }
 
   // Moves as much as possible from sources to sinks, `supply` and `demand` of every node.
   template <class Supply, class Demand>
@@ -33,6 +52,10 @@ class Completion {
     for (std::size_t e = 0; e < rest_.edges.size(); ++e) {
       rest_.edges[e].capacity = flow_.residual[2 * e];
       rest_.edges[e].reverse_capacity = flow_.residual[2 * e + 1];
+    }
+    if (!fits(rest_)) {
+      too_large_ = true;
+      return 0;
     }
     const CutResult result = solver_->solve(rest_, SolveOptions{.observer = context_.observer()});
     for (std::size_t e = 0; e < rest_.edges.size(); ++e) {
@@ -52,30 +75,13 @@ class Completion {
   const SolveContext& context_;
   std::unique_ptr<CutSolver> solver_;
   CutProblem rest_;
+  bool too_large_ = false;
 };
-
-// Surplus and lack of a flow that is far from balanced may sum to more than any problem may hold.
-bool too_large(const IntegerFlow& flow) {
-  std::int64_t left = kCapacityLimit - 1;
-  const auto take = [&left](std::int64_t amount) {
-    left = amount > left ? -1 : left - amount;
-    return left >= 0;
-  };
-  for (const std::int64_t residual : flow.residual) {
-    if (!take(residual)) return true;
-  }
-  for (const std::int64_t surplus : flow.surplus) {
-    if (!take(std::abs(surplus))) return true;
-  }
-  return false;
-}
 
 }  // namespace
 
 Crossover complete_flow(const CutProblem& problem, const ResidualGraph& graph, IntegerFlow flow,
                         const SolveContext& context) {
-  // Then all is left to the exact solver.
-  if (too_large(flow)) flow = {graph.residual, graph.terminal};
   Crossover crossover;
   Completion completion(problem, graph, flow, context);
   const std::vector<std::int64_t>& surplus = flow.surplus;
@@ -87,6 +93,10 @@ Crossover complete_flow(const CutProblem& problem, const ResidualGraph& graph, I
   crossover.returned += completion.move(
       [&](std::uint32_t i) { return surplus[i] <= 0 ? problem.to_sink[i] + surplus[i] : 0; },
       [&](std::uint32_t i) { return -surplus[i] - problem.to_sink[i]; });
+  // Then all is left to the exact solver, from the beginning: the first move is then the problem.
+  if (completion.too_large()) {
+    return complete_flow(problem, graph, {graph.residual, graph.terminal}, context);
+  }
   crossover.edge_flow.resize(problem.edges.size());
   for (std::size_t e = 0; e < problem.edges.size(); ++e) {
     crossover.edge_flow[e] = graph.residual[2 * e] - flow.residual[2 * e];

@@ -110,6 +110,18 @@ TEST_P(RelaxedShape, CrossesOverToAMaximumFlowFromWhereverItStops) {
 INSTANTIATE_TEST_SUITE_P(Shapes, RelaxedShape, ::testing::ValuesIn(testing::random_shapes()),
                          [](const auto& instance) { return testing::to_string(instance.param); });
 
+// All capacities together are one below the limit, so nothing that is posed on the way may hold
+// more.
+TEST(Relaxation, CrossesOverAtTheLimitOfCapacities) {
+  CutProblem problem;
+  problem.to_source = {0, 188325101316185847};
+  problem.to_sink = {0, 0};
+  problem.edges = {{1, 0, kCapacityLimit - 1 - problem.to_source[1], 0}};
+  const CutResult result = solvers::make("lp")->solve(problem);
+  EXPECT_EQ(result.status, CutStatus::optimal) << result.message;
+  EXPECT_EQ(result.value, 0);
+}
+
 TEST(Relaxation, IsTheSameBitForBitWithOneTwoAndEightThreads) {
   const CutProblem problem = testing::sheet_problem(24, 5);
   SolveOptions options = without_crossover();

@@ -213,6 +213,26 @@ TEST_P(CellPathsByFacets, AgreeWithCutsAtRandomLambdas) {
   }
 }
 
+// Flows of the search are no proof where the path has one of its own.
+TEST_P(CellPaths, HaveNoCertificateAsIfNotNested) {
+  ASSERT_TRUE(check(path_).valid);
+  CellPath wrong = path_;
+  for (std::size_t k = 0; k < path_.count(); ++k) {
+    const CellLabels labels = path_.labels(k);
+    wrong.interior.emplace_back(labels.begin(), labels.end());
+  }
+  wrong.path.nested = false;
+  wrong.path.solves = 1000;
+  const CertificateReport report = check(wrong);
+  EXPECT_FALSE(report.valid);
+  EXPECT_FALSE(report.checks[1].passed) << report.checks[1].name;
+}
+
+TEST_P(CellPaths, HaveNoCertificateInAUnitThatAreasDoNotFitInto) {
+  result_.frame.unit = 1e-200;
+  EXPECT_FALSE(check(path_).valid);
+}
+
 TEST_P(CellPathsByFacets, HaveACertificateThatRefusesWhatIsWrong) {
   ASSERT_TRUE(certify_path(result_, options_, path_).valid);
   const auto expect_refused = [&](const std::string& at,

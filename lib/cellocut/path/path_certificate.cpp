@@ -5,6 +5,8 @@
 #include <string>
 #include <utility>
 
+#include "cellocut/base/errors.h"
+
 namespace cellocut {
 
 namespace {
@@ -46,6 +48,7 @@ class PathChecker {
   std::string capacities();
   std::string conservation();
   std::string flows();
+  [[nodiscard]] bool is_nested() const;
   std::string sizes_of_labellings() const;
 
   [[nodiscard]] InterfaceAreas areas_of(std::size_t f) const {
@@ -81,7 +84,11 @@ std::string PathChecker::sizes() {
     return "labellings and breakpoints do not alternate";
   }
   facets_ = list_facets(claim_.complex);
-  areas_ = quantise_areas(claim_.complex, facets_, claim_.unit, claim_.area_bits);
+  try {
+    areas_ = quantise_areas(claim_.complex, facets_, claim_.unit, claim_.area_bits);
+  } catch (const LimitError& error) {
+    return error.what();
+  }
   if (claim_.supported == nullptr) {
     areas_.supported = support_by_labels(facets_, areas_, claim_.initial);
   } else {
@@ -139,7 +146,22 @@ std::string PathChecker::anchors() {
              (interior ? " is fixed interior and leaves" : " is fixed exterior and is not");
     }
   }
+  if (path_.nested != is_nested()) {
+    return std::string("labellings are ") + (path_.nested ? "not " : "") + "nested by this support";
+  }
   return {};
+}
+
+// As ParametricProblem::nested(): what is supported lies between interior anchors and other cells.
+bool PathChecker::is_nested() const {
+  for (std::size_t f = 0; f < facets_.size(); ++f) {
+    if (areas_.supported[f] == 0) continue;
+    const Anchor a = anchor(static_cast<std::int32_t>(facets_[f].cell));
+    const Anchor b = anchor(facets_[f].other);
+    const bool at_free_cell = a == Anchor::free || b == Anchor::free;
+    if (at_free_cell && a != Anchor::interior && b != Anchor::interior) return false;
+  }
+  return true;
 }
 
 // Where nested a facet is cut by the labellings between the levels of its two cells.

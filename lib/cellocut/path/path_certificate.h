@@ -52,7 +52,8 @@ struct PathClaim {
 
 // Checks, in this order, each reported by name:
 //   sizes         arrays match the complex
-//   anchors       cells that are fixed keep their label in every labelling
+//   anchors       cells that are fixed keep their label in every labelling, and labellings are said
+//                 to be nested where the support makes them so
 //   areas         of each labelling, recomputed
 //   breakpoints   ascending within the range; both neighbours cost the same there
 //   capacities    |flow| <= capacity within each zone

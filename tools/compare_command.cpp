@@ -21,6 +21,7 @@
 #include "tools/html_report.h"
 #include "tools/pipeline_arguments.h"
 #include "tools/problem_io.h"
+#include "tools/report_json.h"
 #include "tools/session.h"
 #include "tools/solver_arguments.h"
 #ifdef CELLOCUT_WITH_VIZ
@@ -116,6 +117,19 @@ class Comparison {
  public:
   Comparison(CompareArguments& a, TerminalObserver& observer)
       : a_(a), observer_(observer), page_(count_meshes(a.inputs)) {}
+
+  // What cannot be read is found before anything is solved.
+  void require_readable() {
+    observer_.stage("read");
+    for (const std::string& input : a_.inputs) {
+      if (input == "-") continue;
+      if (const std::optional<ProblemFormat> format = problem_format_of_path(input)) {
+        (void)read_problem(input, *format);
+      } else {
+        (void)read_input(input);
+      }
+    }
+  }
 
   void run() {
     for (const std::string& input : a_.inputs) {
@@ -258,6 +272,7 @@ Json parameters_json(const CompareArguments& a, const ThreadLimit& limit) {
             {"exterior", a.pipeline.exterior},
             {"points_inside", options.guidance.inside.size()},
             {"points_outside", options.guidance.outside.size()},
+            {"guidance", guidance_json(options.guidance)},
             {"area_bits", options.area_bits},
             {"thickening", options.thickening},
             {"unary", options.unary},
@@ -297,6 +312,7 @@ int run_compare(CompareArguments& a) {
   a.comparison.observer = &observer;
 
   Comparison comparison(a, observer);
+  if (a.inputs.size() > 1) comparison.require_readable();
   comparison.run();
   observer.clear();
   Json report{{"version", kCellocutVersion},

@@ -7,6 +7,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <numeric>
+#include <regex>
 
 #include "backends/backends.h"
 #include "cellocut/base/memory.h"
@@ -18,6 +19,7 @@
 #include "tools/exit_code.h"
 #include "tools/path_report.h"
 #include "tools/pipeline_arguments.h"
+#include "tools/report_json.h"
 #include "tools/session.h"
 #ifdef CELLOCUT_WITH_VIZ
 #include "cellocut/mesh/unused_points.h"
@@ -136,6 +138,20 @@ std::vector<std::size_t> longest_intervals(const std::vector<PathEntry>& entries
   return chosen;
 }
 
+// Those of an earlier path in this folder; the collection first, so that it never lists what is not
+// there.
+void remove_surfaces(const fs::path& folder) {
+  fs::remove(folder / "path.pvd");
+  const std::regex of_a_labelling("interface_[0-9]+\\.vtp");
+  std::vector<fs::path> surfaces;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+    if (std::regex_match(entry.path().filename().string(), of_a_labelling)) {
+      surfaces.push_back(entry.path());
+    }
+  }
+  for (const fs::path& surface : surfaces) fs::remove(surface);
+}
+
 // Surfaces of labellings, and a collection whose time is lambda.
 void write_surfaces(const fs::path& folder, const RemeshResult& result, const CellPath& path,
                     const std::vector<PathEntry>& entries, std::size_t most, Observer& observer) {
@@ -211,16 +227,23 @@ int run_path(PathArguments& a) {
   const std::vector<PathEntry> entries =
       path_entries(result, path, path_solids(result.complex, path));
 
-  Json report{{"version", kCellocutVersion},
-              {"input", {{"path", a.input}}},
-              {"parameters",
-               {{"resolution", options.resolution},
-                {"epsilon", result.derived.epsilon},
-                {"area_bits", options.area_bits},
-                {"support", options.support == SupportRule::labels ? "labels" : "facets"},
-                {"backend", a.backend},
-                {"solver", a.solver},
-                {"range", {to_double(range.first), to_double(range.last)}}}}};
+  Json report{
+      {"version", kCellocutVersion},
+      {"input",
+       {{"path", a.input}, {"points", input.points.size()}, {"triangles", input.triangles.size()}}},
+      {"parameters",
+       {{"resolution", options.resolution},
+        {"epsilon", result.derived.epsilon},
+        {"epsilon_abs", result.derived.epsilon * result.frame.unit},
+        {"decimate", options.decimation.removed_share},
+        {"decimation", a.pipeline.decimation},
+        {"exterior", a.pipeline.exterior},
+        {"guidance", guidance_json(options.guidance)},
+        {"area_bits", options.area_bits},
+        {"support", options.support == SupportRule::labels ? "labels" : "facets"},
+        {"backend", a.backend},
+        {"solver", a.solver},
+        {"range", {to_double(range.first), to_double(range.last)}}}}};
   Json stages = Json::array();
   for (const StageTime& stage : result.stages) {
     stages.push_back({{"name", stage.name},
@@ -245,6 +268,7 @@ int run_path(PathArguments& a) {
                                             entries.size())));
 #ifdef CELLOCUT_WITH_VIZ
   write_text((folder / "cells.vtu").string(), encode_cells(result, options, path, a.solver));
+  remove_surfaces(folder);
   if (a.surfaces > 0) {
     write_surfaces(folder, result, path, entries, static_cast<std::size_t>(a.surfaces), observer);
   }

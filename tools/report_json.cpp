@@ -94,6 +94,7 @@ Json parameters_json(const RemeshResult& result, const RemeshOptions& options) {
           {"lambda_fill", to_string(result.derived.lambda_fill)},
           {"support", options.support == SupportRule::labels ? "labels" : "facets"},
           {"exterior", options.exterior == ExteriorMode::unbounded ? "unbounded" : "hull-cells"},
+          {"guidance", guidance_json(options.guidance)},
           {"area_bits", options.area_bits},
           {"cut", options.cut == CutChoice::largest ? "largest" : "smallest"},
           {"surface", surface_name(options.surface)},
@@ -180,6 +181,10 @@ Json stages_json(const RunFacts& facts) {
 }
 
 }  // namespace
+
+Json guidance_json(const Guidance& guidance) {
+  return {{"inside", guidance.inside}, {"outside", guidance.outside}};
+}
 
 Json certificate_json(const CertificateReport& certificate) {
   Json checks = Json::array();

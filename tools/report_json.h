@@ -20,6 +20,9 @@ struct RunFacts {
 // `output` of a report: path, validity, counts, components.
 nlohmann::ordered_json output_json(const SurfaceReport& report, const std::string& path);
 
+// `guidance` of a report's parameters: the points given, in input units.
+nlohmann::ordered_json guidance_json(const Guidance& guidance);
+
 // `certificate` of a report: whether it is valid, and its checks.
 nlohmann::ordered_json certificate_json(const CertificateReport& certificate);
 

@@ -44,6 +44,25 @@ class Path(ProgramCase):
                              cut["lambda_num"] * int(row["unsupported_quanta"]))
             self.assertEqual(cut["interior_cells_largest"], int(row["interior_cells"]))
 
+    def test_surfaces_are_those_of_this_run(self):
+        if not HAS_VTU:
+            self.skipTest("built without VTK")
+        self.labellings("--surfaces", "3")
+        self.put("out/interface_notes.vtp", "the user's")
+        surfaces = [name for name in os.listdir(self.path("out")) if name.startswith("interface_0")]
+        self.assertEqual(len(surfaces), 3)
+        self.labellings("--surfaces", "0")
+        self.assertEqual(sorted(os.listdir(self.path("out"))),
+                         ["cells.vtu", "interface_notes.vtp", "path.csv", "path.json", "path.svg"])
+
+    def test_the_report_tells_how_to_do_it_again(self):
+        self.labellings("--decimate", "0.5", "--decimation", "quadric", "--exterior", "hull-cells", "--inside", "0.5,0.5,0.25")
+        report = json.loads(self.get("out/path.json"))
+        wanted = {"decimate": 0.5, "decimation": "quadric", "exterior": "hull-cells",
+                  "guidance": {"inside": [[0.5, 0.5, 0.25]], "outside": []}}
+        self.assertEqual({key: report["parameters"][key] for key in wanted}, wanted)
+        self.assertEqual((report["input"]["points"], report["input"]["triangles"]), (8, 11))
+
     def test_same_bytes_for_other_solvers_and_threads(self):
         rows = self.labellings("--threads", "1")
         for arguments in (("--threads", "4"), ("--solver", "bk"), ("--solver", "ibfs")):

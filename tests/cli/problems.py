@@ -191,6 +191,12 @@ class Compare(ProgramCase):
         self.succeed("solve", "cut.bbk", "--json", "s.json", "--quiet")
         self.assertEqual(json.loads(self.get("s.json"))["cut"]["value"], cut["value"])
 
+    def test_what_cannot_be_read_is_found_first(self):
+        self.put("empty.obj", "")
+        run = self.run_program("compare", "holed.obj", "empty.obj", "-o", "out", "--repeat", "1", "--quiet", *COARSE)
+        self.assert_one_line(run, 3, r"\Acellocut: empty\.obj: ")
+        self.assertEqual(os.listdir(self.path("out")), [])
+
     def test_a_relaxation_beside_an_exact_solver(self):
         self.put("small.max", SMALL)
         self.succeed("compare", "small.max", "holed.obj", "-o", "out", "--solvers", "bk,lp", "--no-crossover",

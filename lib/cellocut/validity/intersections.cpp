@@ -94,7 +94,7 @@ std::vector<std::vector<std::uint32_t>> size_classes(const std::vector<std::uint
   std::vector<std::uint8_t> index(faces.size());
   tbb::parallel_for(std::size_t{0}, faces.size(), [&](std::size_t i) {
     const double ratio = static_cast<double>(box_of(faces[i]).longest_edge()) / unit;
-    index[i] = ratio <= 1 ? 0 : static_cast<std::uint8_t>(std::ilogb(ratio) / 4 + 1);
+    index[i] = static_cast<std::uint8_t>(ratio <= 1 ? 0 : std::ilogb(ratio) / 4 + 1);
   });
   std::vector<std::vector<std::uint32_t>> classes(1);
   classes[0].reserve(faces.size());

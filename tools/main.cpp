@@ -19,7 +19,7 @@
 namespace cellocut::tools {
 namespace {
 
-// What was printed has arrived, or whoever was to read it has gone away.
+// Whether what was printed has not arrived; not so where its reader has gone away.
 bool is_output_lost() {
   if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return false;
   pollfd reader{STDOUT_FILENO, POLLOUT, 0};

@@ -185,15 +185,9 @@ void check_outputs(const PathArguments& a) {
       throw UsageError(a.common.json + ": two outputs cannot be the same file");
     }
   }
-  if (fs::is_directory(folder)) {
-    require_writable({(folder / "path.json").string(), a.common.json}, {a.input});
-  } else if (fs::exists(folder)) {
-    throw UsageError(a.folder + ": not a folder");
-  } else {
-    fs::path name = folder.lexically_normal();
-    if (!name.has_filename()) name = name.parent_path();  // "out/"
-    require_writable({name.string(), a.common.json}, {a.input});
-  }
+  require_folder(a.folder);
+  const std::string report = fs::is_directory(folder) ? (folder / "path.json").string() : "";
+  require_writable({report, a.common.json}, {a.input});
 }
 
 int run_path(PathArguments& a) {

@@ -101,11 +101,7 @@ SurfaceDistance measure_surface_distance(const TriangleSoup& first, const Triang
   }
   if (!(tolerance > 0)) throw UsageError("the tolerance of a distance must be positive");
   Box3 box = bounding_box(first);
-  const Box3 other = bounding_box(second);
-  for (int axis = 0; axis < 3; ++axis) {
-    box.low[axis] = std::min(box.low[axis], other.low[axis]);
-    box.high[axis] = std::max(box.high[axis], other.high[axis]);
-  }
+  box.include(bounding_box(second));
   const double size = box.longest_edge();
   // From the middle of both: far from the origin, parts could not become as small as they have to.
   const Point3 middle = 0.5 * box.low + 0.5 * box.high;

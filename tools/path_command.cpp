@@ -212,11 +212,12 @@ int run_path(PathArguments& a) {
   }
   observer.stage("path");
   Stopwatch stopwatch;
-  const CellPath path = find_path(result, range.first, range.last, *solver, observer);
+  PathChecker checker = path_checker(result, options);
+  const CellPath path = find_path(result, range.first, range.last, *solver, observer, &checker);
   result.stages.push_back({"path", stopwatch.seconds(), peak_memory_bytes()});
   observer.stage("certificate");
   stopwatch.restart();
-  const CertificateReport certificate = certify_path(result, options, path);
+  const CertificateReport certificate = checker.check(path);
   result.stages.push_back({"certificate", stopwatch.seconds(), peak_memory_bytes()});
   const std::vector<PathEntry> entries =
       path_entries(result, path, path_solids(result.complex, path));

@@ -12,7 +12,6 @@
 #include "cellocut/field/flood_sign.h"
 #include "cellocut/memory_estimate.h"
 #include "cellocut/path/one_sided.h"
-#include "cellocut/path/path_certificate.h"
 #include "cellocut/surface/components.h"
 #include "cellocut/surface/interface.h"
 #include "cellocut/surface/iso_surface.h"
@@ -277,21 +276,26 @@ RemeshResult pose_cut(const TriangleSoup& input, const RemeshOptions& options,
   return result;
 }
 
-CellPath find_path(const RemeshResult& result, const Lambda& first, const Lambda& last,
-                   CutSolver& solver, Observer& observer) {
-  return find_cell_path(result.graph, result.facets, result.areas, first, last, solver, observer);
+PathChecker path_checker(const RemeshResult& result, const RemeshOptions& options) {
+  return PathChecker({.complex = result.complex,
+                      .initial = result.initial_label,
+                      .mode = options.exterior,
+                      .guided = result.guided,
+                      .unit = result.frame.unit,
+                      .area_bits = options.area_bits,
+                      .supported = claimed_support(result, options)});
 }
 
-CertificateReport certify_path(const RemeshResult& result, const RemeshOptions& options,
-                               const CellPath& path) {
-  return check_path({.complex = result.complex,
-                     .initial = result.initial_label,
-                     .mode = options.exterior,
-                     .guided = result.guided,
-                     .unit = result.frame.unit,
-                     .area_bits = options.area_bits,
-                     .path = path,
-                     .supported = claimed_support(result, options)});
+CellPath find_path(const RemeshResult& result, const Lambda& first, const Lambda& last,
+                   CutSolver& solver, Observer& observer, PathChecker* checker) {
+  FlowWitness witness;
+  if (checker != nullptr) {
+    witness = [checker](const Lambda& lambda, const std::vector<Wide>& facet_flow) {
+      checker->add_flow(lambda, facet_flow);
+    };
+  }
+  return find_cell_path(result.graph, result.facets, result.areas, first, last, solver, observer,
+                        witness);
 }
 
 void adopt_cut(RemeshResult& result, const RemeshOptions& options, CutResult cut) {

@@ -17,6 +17,7 @@
 #include "cellocut/mesh/mesh_file.h"
 #include "cellocut/mesh/triangle_soup.h"
 #include "cellocut/path/auto_fill.h"
+#include "cellocut/path/path_certificate.h"
 #include "cellocut/proxy/proxy.h"
 #include "cellocut/surface/fair_report.h"
 #include "cellocut/surface/provenance.h"
@@ -154,12 +155,13 @@ RemeshResult pose_cut(const TriangleSoup& input, const RemeshOptions& options,
                       const Tetrahedralizer& tetrahedralizer,
                       Observer& observer = silent_observer());
 
-// The fill path of a result of pose_cut(), at whatever lambda it was posed, and the proof of it.
-// Errors: as find_cell_path().
+// The fill path of a result of pose_cut(), at whatever lambda it was posed, and what proves it: the
+// checker, which keeps references to the result, is to see the flows where support is measured on
+// facets. Errors: as find_cell_path().
+PathChecker path_checker(const RemeshResult& result, const RemeshOptions& options);
 CellPath find_path(const RemeshResult& result, const Lambda& first, const Lambda& last,
-                   CutSolver& solver, Observer& observer = silent_observer());
-CertificateReport certify_path(const RemeshResult& result, const RemeshOptions& options,
-                               const CellPath& path);
+                   CutSolver& solver, Observer& observer = silent_observer(),
+                   PathChecker* checker = nullptr);
 
 // Labels the cells of a result of pose_cut() by a cut of its problem, lifts the flow to the facets
 // and checks the certificate. May be called again, with another solver's cut.

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <functional>
+#include <optional>
 #include <random>
 
 #include "pipeline_runs.h"
@@ -38,7 +39,7 @@ class CellPaths : public ::testing::TestWithParam<Case> {
   }
 
   [[nodiscard]] CertificateReport check(const CellPath& path) const {
-    return certify_path(result_, options_, path);
+    return path_checker(result_, options_).check(path);
   }
 
   RemeshOptions options_;
@@ -181,11 +182,14 @@ class CellPathsByFacets : public ::testing::TestWithParam<Case> {
     options_.support = SupportRule::facets;
     options_.lambda_fill = {1, 1};
     result_ = pose_cut(GetParam().soup, options_, *backends::make("cgal"));
-    path_ = find_path(result_, kFirst, kLast, *solvers::make("push_relabel"));
+    checker_.emplace(path_checker(result_, options_));
+    path_ = find_path(result_, kFirst, kLast, *solvers::make("push_relabel"), silent_observer(),
+                      &*checker_);
   }
 
   RemeshOptions options_;
   RemeshResult result_;
+  std::optional<PathChecker> checker_;  // has seen the flows of the path
   CellPath path_;
 };
 
@@ -234,12 +238,12 @@ TEST_P(CellPaths, HaveNoCertificateInAUnitThatAreasDoNotFitInto) {
 }
 
 TEST_P(CellPathsByFacets, HaveACertificateThatRefusesWhatIsWrong) {
-  ASSERT_TRUE(certify_path(result_, options_, path_).valid);
+  ASSERT_TRUE(checker_->check(path_).valid);
   const auto expect_refused = [&](const std::string& at,
                                   const std::function<void(CellPath&)>& corrupt) {
     CellPath wrong = path_;
     corrupt(wrong);
-    for (const CertificateCheck& c : certify_path(result_, options_, wrong).checks) {
+    for (const CertificateCheck& c : checker_->check(wrong).checks) {
       if (c.passed) continue;
       EXPECT_EQ(c.name, at);
       return;
@@ -256,7 +260,50 @@ TEST_P(CellPathsByFacets, HaveACertificateThatRefusesWhatIsWrong) {
   expect_refused("areas", [&](CellPath& p) { p.interior[0][free].flip(); });
   expect_refused("areas", [](CellPath& p) { ++p.path.areas[0].supported; });
   expect_refused("breakpoints", [](CellPath& p) { ++p.path.breakpoints[0].p; });
-  expect_refused("flows", [](CellPath& p) { p.path.solves = 3; });
+  expect_refused("flows", [](CellPath& p) { p.path.first = {1, 2}; });
+  expect_refused("flows", [](CellPath& p) { p.path.last = {1001, 1}; });
+  // A labelling that is left out, with areas and crossing to match.
+  ASSERT_GE(path_.count(), 3U);
+  for (std::size_t k = 1; k + 1 < path_.count(); ++k) {
+    expect_refused("flows", [k](CellPath& p) {
+      const auto gone = static_cast<std::ptrdiff_t>(k);
+      p.interior.erase(p.interior.begin() + gone);
+      p.path.areas.erase(p.path.areas.begin() + gone);
+      p.path.breakpoints.erase(p.path.breakpoints.begin() + gone);
+      p.path.breakpoints[k - 1] = crossing(p.path.areas[k - 1], p.path.areas[k]);
+    });
+  }
+  // Without the first labelling, or the last, the range ends where they do.
+  expect_refused("flows", [](CellPath& p) {
+    p.interior.erase(p.interior.begin());
+    p.path.areas.erase(p.path.areas.begin());
+    p.path.breakpoints.erase(p.path.breakpoints.begin());
+  });
+  expect_refused("flows", [](CellPath& p) {
+    p.interior.pop_back();
+    p.path.areas.pop_back();
+    p.path.breakpoints.pop_back();
+  });
+}
+
+TEST_P(CellPathsByFacets, AreProvedByMaximumFlowsAlone) {
+  const auto is_proved = [&](const std::function<void(std::vector<Wide>&)>& change) {
+    PathChecker checker = path_checker(result_, options_);
+    find_cell_path(result_.graph, result_.facets, result_.areas, kFirst, kLast,
+                   *solvers::make("push_relabel"), silent_observer(),
+                   [&](const Lambda& lambda, std::vector<Wide> flow) {
+                     change(flow);
+                     checker.add_flow(lambda, flow);
+                   });
+    return checker.check(path_).valid;
+  };
+  EXPECT_TRUE(is_proved([](std::vector<Wide>&) {}));
+  EXPECT_FALSE(is_proved([](std::vector<Wide>& flow) { flow.clear(); }));
+  EXPECT_FALSE(is_proved([](std::vector<Wide>& flow) { flow.assign(flow.size(), 0); }));
+  EXPECT_FALSE(is_proved([](std::vector<Wide>& flow) {  // more than capacities allow
+    for (Wide& f : flow) f *= 1000;
+  }));
+  EXPECT_FALSE(path_checker(result_, options_).check(path_).valid);  // has seen none
 }
 
 TEST_P(CellPathsByFacets, ACutWithOtherSupportThanClaimedIsRefused) {

@@ -70,15 +70,15 @@ TEST(Guidance, GoesWithThePathAndTheAutomaticWeight) {
   RemeshOptions options = guided_options({.inside = {{0, 0, 0}}, .outside = {{0, 0, 1.2}}}, 1);
   const RemeshResult result = pose_cut(test::sphere_with_hole(), options, *backends::make("cgal"));
   const CellPath path = find_path(result, {1, 1}, {1000, 1}, *solvers::make("bk"));
-  EXPECT_TRUE(certify_path(result, options, path).valid);
-  EXPECT_FALSE(check_path({.complex = result.complex,
-                           .initial = result.initial_label,
-                           .mode = options.exterior,
-                           .guided = {},
-                           .unit = result.frame.unit,
-                           .area_bits = options.area_bits,
-                           .path = path})
-                   .valid);
+  EXPECT_TRUE(path_checker(result, options).check(path).valid);
+  const GuidedCells nobody;
+  const PathChecker unguided({.complex = result.complex,
+                              .initial = result.initial_label,
+                              .mode = options.exterior,
+                              .guided = nobody,
+                              .unit = result.frame.unit,
+                              .area_bits = options.area_bits});
+  EXPECT_FALSE(unguided.check(path).valid);
   for (const std::uint32_t cell : result.guided.inside) EXPECT_EQ(path.level[cell], path.count());
   options.lambda_auto = true;
   expect_sound(run(test::sphere_with_hole(), options));

@@ -47,10 +47,23 @@ CellLabels CellPath::labels(std::size_t k) const {
 
 CellPath find_cell_path(const CellGraph& graph, const FacetList& facets, const FacetAreas& areas,
                         const Lambda& first, const Lambda& last, CutSolver& solver,
-                        Observer& observer) {
+                        Observer& observer, const FlowWitness& witness) {
+  const auto by_facet = [&](const std::vector<Wide>& edge_flow) {
+    std::vector<Wide> facet_flow(facets.size(), 0);
+    for (std::size_t e = 0; e < edge_flow.size(); ++e) {
+      facet_flow[graph.edge_facet[e]] = edge_flow[e];
+    }
+    return facet_flow;
+  };
+  FlowWitness facet_witness;
+  if (witness) {
+    facet_witness = [&](const Lambda& lambda, const std::vector<Wide>& edge_flow) {
+      witness(lambda, by_facet(edge_flow));
+    };
+  }
   CellPath result;
-  result.path =
-      find_fill_path(make_parametric_problem(graph, facets, areas), first, last, solver, observer);
+  result.path = find_fill_path(make_parametric_problem(graph, facets, areas), first, last, solver,
+                               observer, facet_witness);
   if (!result.path.nested) {
     for (std::vector<bool>& nodes : result.path.source_side) {
       std::vector<bool> cells(graph.node_of_cell.size());
@@ -74,10 +87,7 @@ CellPath find_cell_path(const CellGraph& graph, const FacetList& facets, const F
       result.level[c] = graph.decided[c] == kInterior ? highest : 0;
     }
   }
-  result.facet_flow.assign(facets.size(), 0);
-  for (std::size_t e = 0; e < graph.edge_facet.size(); ++e) {
-    result.facet_flow[graph.edge_facet[e]] = result.path.zone_flow[e];
-  }
+  result.facet_flow = by_facet(result.path.zone_flow);
   return result;
 }
 

@@ -34,10 +34,11 @@ struct CellPath {
   [[nodiscard]] CellLabels labels(std::size_t k) const;
 };
 
-// As find_fill_path() on the problem of the cells, with its errors.
+// As find_fill_path() on the problem of the cells, with its errors. The witness sees flows per
+// facet, of those between free cells; the others have 0.
 CellPath find_cell_path(const CellGraph& graph, const FacetList& facets, const FacetAreas& areas,
                         const Lambda& first, const Lambda& last, CutSolver& solver,
-                        Observer& observer);
+                        Observer& observer, const FlowWitness& witness = {});
 
 // The solid of a labelling.
 struct PathSolid {

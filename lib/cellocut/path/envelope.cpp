@@ -1,6 +1,7 @@
 #include "cellocut/path/envelope.h"
 
 #include <cmath>
+#include <optional>
 #include <stdexcept>
 
 namespace cellocut {
@@ -9,13 +10,19 @@ namespace {
 
 class EnvelopeSearch {
  public:
-  EnvelopeSearch(const ParametricProblem& problem, CutSolver& solver, Observer& observer)
-      : problem_(problem), solver_(solver), observer_(observer) {}
+  EnvelopeSearch(const ParametricProblem& problem, CutSolver& solver, Observer& observer,
+                 const FlowWitness& witness)
+      : problem_(problem), solver_(solver), observer_(observer), witness_(witness) {}
 
   FillPath run(const Lambda& first, const Lambda& last);
 
  private:
   WideCut solve(const Lambda& lambda);
+  void show(const WideCut& cut, const Lambda& lambda) const;
+  // The line of the largest minimum at an end of the range.
+  InterfaceAreas solve_end(const Lambda& lambda);
+  // A line below the crossing of two, or none.
+  std::optional<InterfaceAreas> line_below(const InterfaceAreas& before, const Lambda& crossing);
   // Finds the lines and breakpoints between two lines of the envelope, in ascending order, the
   // first line included.
   void divide(const InterfaceAreas& before, const InterfaceAreas& after);
@@ -27,6 +34,7 @@ class EnvelopeSearch {
   const ParametricProblem& problem_;
   CutSolver& solver_;
   Observer& observer_;
+  const FlowWitness& witness_;
   FillPath path_;
 };
 
@@ -37,6 +45,24 @@ WideCut EnvelopeSearch::solve(const Lambda& lambda) {
   path_.digits += cut.digits;
   path_.solved_nodes += static_cast<std::int64_t>(problem_.node_count());
   return cut;
+}
+
+void EnvelopeSearch::show(const WideCut& cut, const Lambda& lambda) const {
+  if (witness_) witness_(lambda, cut.edge_flow);
+}
+
+InterfaceAreas EnvelopeSearch::solve_end(const Lambda& lambda) {
+  const WideCut cut = solve(lambda);
+  show(cut, lambda);
+  return areas_of(problem_, cut.largest_source_side);
+}
+
+std::optional<InterfaceAreas> EnvelopeSearch::line_below(const InterfaceAreas& before,
+                                                         const Lambda& crossing) {
+  const WideCut cut = solve(crossing);
+  if (cut.value < cost_at(before, crossing)) return areas_of(problem_, cut.largest_source_side);
+  show(cut, crossing);
+  return std::nullopt;
 }
 
 // Progress, by where lambda stands in the range on a logarithmic scale.
@@ -50,16 +76,15 @@ void EnvelopeSearch::report(const Lambda& lambda, double from, double to) {
 void EnvelopeSearch::divide(const InterfaceAreas& before, const InterfaceAreas& after) {
   if (before == after) return;
   const Lambda lambda = crossing(before, after);
-  const WideCut cut = solve(lambda);
-  if (cut.value == cost_at(before, lambda)) {
-    path_.areas.push_back(before);
-    path_.breakpoints.push_back(lambda);
-    report(lambda, 0, 0.6);
+  // (Nothing of the size of the problem is kept while both parts are divided in turn.)
+  if (const std::optional<InterfaceAreas> below = line_below(before, lambda)) {
+    divide(before, *below);
+    divide(*below, after);
     return;
   }
-  const InterfaceAreas below = areas_of(problem_, cut.largest_source_side);
-  divide(before, below);
-  divide(below, after);
+  path_.areas.push_back(before);
+  path_.breakpoints.push_back(lambda);
+  report(lambda, 0, 0.6);
 }
 
 void EnvelopeSearch::drop_empty_intervals() {
@@ -92,8 +117,8 @@ FillPath EnvelopeSearch::run(const Lambda& first, const Lambda& last) {
   path_.first = first;
   path_.last = last;
   path_.nested = false;
-  const InterfaceAreas before = areas_of(problem_, solve(first).largest_source_side);
-  const InterfaceAreas after = areas_of(problem_, solve(last).largest_source_side);
+  const InterfaceAreas before = solve_end(first);
+  const InterfaceAreas after = solve_end(last);
   divide(before, after);
   path_.areas.push_back(after);
   drop_empty_intervals();
@@ -104,8 +129,8 @@ FillPath EnvelopeSearch::run(const Lambda& first, const Lambda& last) {
 }  // namespace
 
 FillPath find_envelope(const ParametricProblem& problem, const Lambda& first, const Lambda& last,
-                       CutSolver& solver, Observer& observer) {
-  return EnvelopeSearch(problem, solver, observer).run(first, last);
+                       CutSolver& solver, Observer& observer, const FlowWitness& witness) {
+  return EnvelopeSearch(problem, solver, observer, witness).run(first, last);
 }
 
 }  // namespace cellocut

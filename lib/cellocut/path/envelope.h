@@ -8,6 +8,6 @@ namespace cellocut {
 
 // As find_fill_path(), for any problem; without levels and zone flows.
 FillPath find_envelope(const ParametricProblem& problem, const Lambda& first, const Lambda& last,
-                       CutSolver& solver, Observer& observer);
+                       CutSolver& solver, Observer& observer, const FlowWitness& witness);
 
 }  // namespace cellocut

@@ -240,9 +240,9 @@ FillPath PathSearch::run(const ParametricProblem& problem, const Lambda& first,
 }  // namespace
 
 FillPath find_fill_path(const ParametricProblem& problem, const Lambda& first, const Lambda& last,
-                        CutSolver& solver, Observer& observer) {
+                        CutSolver& solver, Observer& observer, const FlowWitness& witness) {
   if (problem.nested()) return PathSearch(solver, observer).run(problem, first, last);
-  return find_envelope(problem, first, last, solver, observer);
+  return find_envelope(problem, first, last, solver, observer, witness);
 }
 
 LambdaInterval interval_of(const FillPath& path, std::size_t k) {

@@ -16,6 +16,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "cellocut/base/observer.h"
@@ -35,8 +36,8 @@ struct FillPath {
   std::vector<Lambda> breakpoints;  // one less
   bool nested = true;
   // Where cuts are not nested: per labelling, which nodes are on its source side. The proof is then
-  // that at each breakpoint and both ends the value of a flow, checked by solve_wide, was what the
-  // labellings next to it cost; `level` and `zone_flow` are empty.
+  // a flow at each breakpoint and both ends, too many to be kept: they are shown to a FlowWitness.
+  // `level` and `zone_flow` are empty.
   std::vector<std::vector<bool>> source_side;
   // Per node: in how many labellings it is on the source side; in the first ones, as they are
   // nested.
@@ -53,6 +54,10 @@ struct FillPath {
   std::int64_t solved_nodes = 0;  // nodes of all problems
 };
 
+// Where cuts are not nested: sees a maximum flow at each breakpoint and both ends of the range, net
+// per edge, in units of q supported + p unsupported, one after the other.
+using FlowWitness = std::function<void(const Lambda& lambda, const std::vector<Wide>& edge_flow)>;
+
 // The whole path over [first, last]. Labellings are the same for every exact solver; the flow and
 // the figures of the search may differ. Takes fewer than two cuts for each labelling, and one at a
 // simple fraction for each range that is wide, each of the nodes in which the ends of its range
@@ -62,7 +67,7 @@ struct FillPath {
 // to at most 2^50. Errors: as solve_wide(); std::logic_error where problem.nested() and cuts are
 // not (not known to happen).
 FillPath find_fill_path(const ParametricProblem& problem, const Lambda& first, const Lambda& last,
-                        CutSolver& solver, Observer& observer);
+                        CutSolver& solver, Observer& observer, const FlowWitness& witness = {});
 
 // Where labelling k is a minimum. Precondition: k < areas.size().
 struct LambdaInterval {

@@ -24,13 +24,21 @@
 // the same at every lambda, are drawn from as far as they go, and cancel.)
 //
 // Where support is measured on facets labellings are not nested, and this proof does not hold.
-// There the proof is that of fill_path.h: flows of the search itself, which solve_wide has checked,
-// one at each breakpoint and end.
+// There it takes a flow at each breakpoint and end of the range, of whose capacities at that lambda
+// no labelling can cost less than the flow's bound: the sum over free cells of the lesser of what
+// interior anchors give (the cost to be exterior) and what the exterior takes plus what the cell
+// sends on (to be interior). Where that is what both neighbours cost, each labelling is a minimum
+// at both ends of its interval, hence between them, as the least cost is concave in lambda.
 //
 // Anchors, areas, levels and flows are checked on the complex itself. With the solvers and the
 // contraction of anchored cells this shares nothing; anchors of L* and quantised areas are those of
 // energy.h.
 #pragma once
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "cellocut/complex/tet_complex.h"
 #include "cellocut/energy/certificate.h"
@@ -38,31 +46,66 @@
 
 namespace cellocut {
 
-struct PathClaim {
+// What a path is one of.
+struct PathTerms {
   const TetComplex& complex;
   const CellLabels& initial;  // L*
   ExteriorMode mode;
   const GuidedCells& guided;  // fixed by the user's points
   double unit;                // length of one relative unit, in input units
   int area_bits;
-  const CellPath& path;
   // As CertificateClaim::supported.
   const std::vector<std::int64_t>* supported = nullptr;
 };
 
-// Checks, in this order, each reported by name:
-//   sizes         arrays match the complex
-//   anchors       cells that are fixed keep their label in every labelling, and labellings are said
-//                 to be nested where the support makes them so
-//   areas         of each labelling, recomputed
-//   breakpoints   ascending within the range; both neighbours cost the same there
-//   capacities    |flow| <= capacity within each zone
-//   conservation  what each free cell draws and passes on, as above
-// or, where labellings are not nested, in place of the last two:
-//   flows         the search had a flow for each breakpoint and end
-// Precondition: the complex is sound (as make_canonical leaves it). Never throws for a wrong claim
-// about it; a later check is not passed where an earlier one makes it meaningless. O(cells +
-// labellings).
-CertificateReport check_path(const PathClaim& claim);
+class PathChecker {
+ public:
+  // Derives facets, areas and anchors. Keeps references. O(cells). Never throws for wrong terms: no
+  // path passes then.
+  // Precondition: the complex is sound (as make_canonical leaves it).
+  explicit PathChecker(const PathTerms& terms);
+
+  // A flow at lambda, net per facet, of which those between free cells count, in units of
+  // q supported + p unsupported. Keeps the bound that it proves; one that breaks a capacity proves
+  // nothing. A FlowWitness of find_cell_path(). O(cells).
+  void add_flow(const Lambda& lambda, const std::vector<Wide>& facet_flow);
+
+  // Checks, in this order, each reported by name:
+  //   sizes         arrays match the complex
+  //   anchors       cells that are fixed keep their label in every labelling, and labellings are
+  //                 said to be nested where the support makes them so
+  //   areas         of each labelling, recomputed
+  //   breakpoints   ascending within the range; both neighbours cost the same there
+  //   capacities    |flow| <= capacity within each zone
+  //   conservation  what each free cell draws and passes on, as above
+  // or, where labellings are not nested, in place of the last two:
+  //   flows         at each breakpoint and end a flow was added whose bound is what both neighbours
+  //                 cost
+  // Never throws for a wrong path; a later check is not passed where an earlier one makes it
+  // meaningless. O(cells + labellings); where not nested, O(cells labellings).
+  [[nodiscard]] CertificateReport check(const CellPath& path) const;
+
+ private:
+  friend class PathCheck;
+
+  [[nodiscard]] std::string find_areas();
+  [[nodiscard]] std::string fix_cells();
+  // As ParametricProblem::nested().
+  [[nodiscard]] bool is_nested() const;
+  [[nodiscard]] Anchor anchor(std::int32_t cell) const {
+    return cell == kOutside ? Anchor::exterior : anchors_[static_cast<std::size_t>(cell)];
+  }
+  [[nodiscard]] InterfaceAreas areas_of(std::size_t f) const {
+    return {areas_.supported[f], areas_.quantised[f] - areas_.supported[f]};
+  }
+
+  PathTerms terms_;
+  FacetList facets_;
+  FacetAreas areas_;
+  std::vector<Anchor> anchors_;  // per cell
+  std::string wrong_areas_;      // what is wrong with them, or nothing
+  std::string wrong_anchors_;
+  std::vector<std::pair<Lambda, Wide>> bounds_;
+};
 
 }  // namespace cellocut

@@ -235,8 +235,8 @@ Command add_bench(CLI::App& program) {
       ->allow_extra_args(false);
   app->add_option("--workflow", a.workflow,
                   "Folder of the Snakefile (default: that of this program)");
-  app->add_flag("--dry-run", a.dry_run, "Only say what would run");
   a.common.add_to(*app);
+  app->add_flag("--dry-run", a.dry_run, "Only say what would run")->excludes("--json");
   return {app, [arguments] { return run_bench(*arguments); },
           [arguments] { return arguments->suite; }};
 }

@@ -45,6 +45,10 @@ int run_program(int argc, char** argv) {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return program.exit(error);  // --help, --version
+    if (program.get_subcommands().empty() && argc > 1) {
+      print_error("'" + std::string(argv[1]) + "' is no command (see cellocut --help)");
+      return kUsage;
+    }
     print_error(std::string(error.what()) + " (see cellocut --help)");
     return kUsage;
   }

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 #include <locale>
+#include <map>
 #include <optional>
 #include <sstream>
 
@@ -14,6 +15,13 @@
 namespace cellocut::tools {
 
 namespace {
+
+// Units of --memory. (CLI11's own AsSizeValue takes whole numbers alone, so no 1.5GB.)
+const std::map<std::string, double> kByteUnits{
+    {"b", 1},        {"k", 1e3},  {"kb", 1e3}, {"kib", 0x1p10}, {"m", 1e6},
+    {"mb", 1e6},     {"g", 1e9},  {"gb", 1e9}, {"mib", 0x1p20}, {"gib", 0x1p30},
+    {"tib", 0x1p40}, {"t", 1e12}, {"tb", 1e12}};
+constexpr double kMostBytes = 1e18;
 
 // "1,2.5,-3" or "1 2.5 -3".
 std::optional<Point3> parse_point(std::string text) {
@@ -81,10 +89,12 @@ void PipelineArguments::add_to(CLI::App& app, LambdaOption lambda_option) {
                  "Ablation: phi is the flood-signed distance, no offset");
     app.add_flag("--no-unary", no_unary, "Ablation: no cell is anchored interior");
   }
-  app.add_option("--memory", memory,
-                 "Refuse a run that by estimate takes more, as 6GB, 800MB or bytes (default: what "
-                 "the machine has; 0: no limit)")
-      ->transform(CLI::AsSizeValue(true));
+  app.add_option(
+         "--memory", memory,
+         "Refuse a run that by estimate takes more, as 6GB, 1.5GiB, 800MB or bytes (default: what "
+         "the machine has; 0: no limit)")
+      ->transform(CLI::AsNumberWithUnit(kByteUnits))
+      ->check(CLI::NonNegativeNumber);
   app.add_option("--support", support,
                  "What of a facet between cells has weight 1: all of it where the initial labels "
                  "differ (labels), or the part of its area that lies in the slab or within half a "
@@ -117,7 +127,8 @@ void PipelineArguments::complete() {
   }
   options.guidance.inside = read_points("--inside", inside);
   options.guidance.outside = read_points("--outside", outside);
-  options.memory_limit = memory ? static_cast<std::int64_t>(*memory) : available_memory();
+  options.memory_limit =
+      memory ? static_cast<std::int64_t>(std::min(*memory, kMostBytes)) : available_memory();
   options.decimation.method =
       decimation == "clusters" ? DecimationMethod::clusters : DecimationMethod::quadric;
   options.support = support == "labels" ? SupportRule::labels : SupportRule::facets;

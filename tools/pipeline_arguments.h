@@ -24,7 +24,7 @@ enum class LambdaOption {
 struct PipelineArguments {
   RemeshOptions options;
   std::string lambda = "20";
-  std::optional<std::uint64_t> memory;  // bytes
+  std::optional<double> memory;  // bytes
   std::string decimation = "clusters";
   std::string support = "labels";
   std::string exterior = "unbounded";

@@ -276,6 +276,12 @@ Verdict judge(const RemeshResult& result, const RemeshArguments& a) {
 void write_surface(const RemeshResult& result, const RemeshArguments& a) {
   const std::vector<VertexAttribute> attributes =
       a.options().provenance ? result.provenance.attributes() : std::vector<VertexAttribute>();
+  const MeshFormat format = a.options().output_format;
+  if (a.provenance && is_ply(format)) {
+    write_mesh(result.surface, a.output, format, attributes);
+  } else {
+    write_mesh(result.surface, a.output, format);
+  }
 #ifdef CELLOCUT_WITH_VIZ
   if (!a.vtp.empty()) {
     const std::vector<viz::FieldValue> fields{
@@ -284,12 +290,6 @@ void write_surface(const RemeshResult& result, const RemeshArguments& a) {
     write_text(a.vtp, viz::encode_vtp(result.surface, attributes, fields));
   }
 #endif
-  const MeshFormat format = a.options().output_format;
-  if (a.provenance && is_ply(format)) {
-    write_mesh(result.surface, a.output, format, attributes);
-  } else {
-    write_mesh(result.surface, a.output, format);
-  }
 }
 
 int run_remesh(RemeshArguments& a) {
@@ -311,6 +311,8 @@ int run_remesh(RemeshArguments& a) {
   observer.check();
   observer.stage("write");
   const auto [code, problem] = judge(result, a);
+  // First what was asked for first: no other file that cannot be written costs it.
+  if (code == kDone) write_surface(result, a);
 #ifdef CELLOCUT_WITH_VIZ
   if (!a.stages.empty()) {
     write_stage_files(result, a.options(), input, a.solver, a.stages, observer);
@@ -321,7 +323,6 @@ int run_remesh(RemeshArguments& a) {
     write_problem(result.graph.problem, a.problem, *problem_format_of_path(a.problem));
   }
   if (!a.stage_surfaces.empty()) write_stage_surfaces(result, a.stage_surfaces);
-  if (code == kDone) write_surface(result, a);
   if (code != kDone && !a.keep_invalid.empty() && !result.surface.empty()) {
     write_mesh(result.surface, a.keep_invalid,
                format_of_path(a.keep_invalid).value_or(MeshFormat::obj));

@@ -8,7 +8,7 @@ import time
 from program import COARSE, HAS_VTU, OLD, PROGRAM, ProgramCase, obj_text, sphere
 
 # In the order in which the program writes them.
-OUTPUTS = (("out.vtu",) if HAS_VTU else ()) + ("out.obj", "out.json")
+OUTPUTS = ("out.obj",) + (("out.vtu",) if HAS_VTU else ()) + ("out.json",)
 
 
 def remesh_arguments():

@@ -140,6 +140,9 @@ class Arguments(ProgramCase):
                                "would fit", *command, "-R", "4000", "--memory", "200MB")
         self.refuse("--memory", "--memory", "x")
         self.refuse("--memory", "--memory", "-1")
+        self.refuse("--memory", "--memory", "1.5 apples")
+        self.fail_with(6, "--memory", "remesh", "holed.obj", "-o", "out.obj", *COARSE, "--memory", "0.001GB")
+        self.succeed("remesh", "holed.obj", "-o", "out.obj", "--quiet", *COARSE, "--memory", "1.5 GiB")
         self.succeed("remesh", "holed.obj", "-o", "out.obj", "--quiet", *COARSE, "--memory", "0")
 
     def test_arguments_that_do_not_go_together(self):
@@ -149,7 +152,8 @@ class Arguments(ProgramCase):
                        "--json", "-", *COARSE, outputs=())
         self.fail_with(2, "--output", "remesh", "holed.obj", outputs=())
         self.fail_with(2, "subcommand", outputs=())
-        self.fail_with(2, "bogus|subcommand", "bogus", outputs=())
+        self.fail_with(2, "'bogus' is no command", "bogus", outputs=())
+        self.fail_with(2, "'--bogus' is no command", "--bogus", outputs=())
 
 
 class OutputsOverInputs(ProgramCase):

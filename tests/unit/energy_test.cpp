@@ -1,6 +1,7 @@
 // The energy: lambda as a fraction, areas as integers, anchors, and the cost of a labelling.
 #include "cellocut/energy/energy.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -44,6 +45,12 @@ TEST(Rational, RefusesWhatIsNoPositiveFraction) {
     EXPECT_THROW(parse_rational(text), UsageError) << "'" << text << "'";
   }
   EXPECT_THROW(parse_rational("1844674407371/0.0000001"), UsageError);  // more than 2^63
+  try {  // positive, but with too many digits: the message must not deny the former alone
+    parse_rational("3.14159265358979323846");
+    FAIL();
+  } catch (const UsageError& error) {
+    EXPECT_THAT(error.what(), ::testing::HasSubstr("terms up to 2^20"));
+  }
 }
 
 TEST(Rational, IsWrittenAsItIsRead) {

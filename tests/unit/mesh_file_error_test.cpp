@@ -83,12 +83,15 @@ TEST(MeshFileErrors, Obj) {
 TEST(MeshFileErrors, Off) {
   EXPECT_EQ(error_of("a.off", "OFF\n"), "the file ends before the number of vertices");
   EXPECT_EQ(error_of("a.off", "OFF 3 0 0\n0 0 0\n1 0 0\n0 1 0\n"), "no faces");
-  EXPECT_EQ(error_of("a.off", "OFF 4 1 0\n0 0 0\n1 0 0\n"),
-            "the header promises 4 vertices, the file ends after 2 (truncated)");
-  EXPECT_EQ(error_of("a.off", "OFF 3 2 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"),
-            "the header promises 2 faces, the file ends after 1 (truncated)");
+  EXPECT_EQ(
+      error_of("a.off", "OFF 4 1 0\n0 0 0\n1 0 0\n"),
+      "the header promises 4 vertices, the file ends after 2 (truncated, or not on a line each)");
+  EXPECT_EQ(
+      error_of("a.off", "OFF 3 2 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"),
+      "the header promises 2 faces, the file ends after 1 (truncated, or not on a line each)");
   EXPECT_EQ(error_of("a.off", "OFF 9000000000000000000 9000000000000000000 0\n0 0 0\n"),
-            "the header promises 9000000000000000000 vertices, the file ends after 1 (truncated)");
+            "the header promises 9000000000000000000 vertices, the file ends after 1 (truncated, "
+            "or not on a line each)");
   EXPECT_EQ(error_of("a.off", "OFF 3 -1 0\n"), "line 1: the number of faces is negative: -1");
   EXPECT_EQ(error_of("a.off", "COFF\nx y z\n"),
             "line 2: expected the number of vertices, found 'x'");

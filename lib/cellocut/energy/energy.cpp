@@ -54,16 +54,14 @@ Rational parse_rational(std::string_view text) {
     value.numerator *= below.denominator;
     value.denominator *= below.numerator;
   }
-  if (value.numerator <= 0 || value.denominator <= 0) {
-    throw UsageError("'" + std::string(text) + "' is not a positive number such as 20, 2.5 or 1/3");
+  if (value.numerator > 0 && value.denominator > 0) {
+    const std::int64_t common = std::gcd(value.numerator, value.denominator);
+    value = {value.numerator / common, value.denominator / common};
+    if (std::max(value.numerator, value.denominator) <= kLargestLambdaTerm) return value;
   }
-  const std::int64_t common = std::gcd(value.numerator, value.denominator);
-  value = {value.numerator / common, value.denominator / common};
-  if (value.numerator > kLargestLambdaTerm || value.denominator > kLargestLambdaTerm) {
-    throw UsageError("'" + std::string(text) +
-                     "' is not a fraction p/q with p and q at most 2^20 = 1048576");
-  }
-  return value;
+  throw UsageError("'" + std::string(text) +
+                   "' is not a positive number such as 20, 2.5 or 1/3, a fraction with terms up to "
+                   "2^20 = 1048576");
 }
 
 std::string to_string(const Rational& value) {

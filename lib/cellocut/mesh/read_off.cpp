@@ -21,7 +21,8 @@ LineScanner next_line(LineReader& lines, const char* things, std::size_t number,
     if (!line.at_end()) return line;
   }
   throw InputError("the header promises " + std::to_string(count) + " " + things +
-                   ", the file ends after " + std::to_string(number) + " (truncated)");
+                   ", the file ends after " + std::to_string(number) +
+                   " (truncated, or not on a line each)");
 }
 
 std::size_t count_at(LineScanner& line, const char* what) {

@@ -11,6 +11,7 @@
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
+#include <ctime>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -160,10 +161,22 @@ int run_engine(const std::vector<std::string>& command, const fs::path& output,
   if (child < 0)
     throw LimitError(std::string("no process can be started: ") + std::strerror(errno));
   if (child == 0) become(command, output);
+  setpgid(child, child);  // whichever of the two is first
+  // A signal may come at any time, also just before a wait that would outlast it.
+  constexpr timespec kPause{0, 50'000'000};
   int status = 0;
-  while (waitpid(child, &status, 0) < 0) {
-    if (errno != EINTR) throw LimitError(std::string("waitpid: ") + std::strerror(errno));
-    if (observer.cancelled()) kill(-child, SIGINT);
+  bool told = false;
+  while (true) {
+    const pid_t ended = waitpid(child, &status, WNOHANG);
+    if (ended == child) break;
+    if (ended < 0 && errno != EINTR) {
+      throw LimitError(std::string("waitpid: ") + std::strerror(errno));
+    }
+    if (observer.cancelled() && !told) {
+      kill(-child, SIGINT);
+      told = true;
+    }
+    nanosleep(&kPause, nullptr);
   }
   return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }

@@ -95,7 +95,7 @@ std::vector<std::string> choose(const std::vector<Variant<Interface>>& table,
   return chosen;
 }
 
-std::size_t count_terminal_arcs(const CutProblem& problem) {
+std::size_t count_terminal_nodes(const CutProblem& problem) {
   std::size_t count = 0;
   for (std::size_t i = 0; i < problem.node_count(); ++i) {
     count += problem.to_source[i] != 0 || problem.to_sink[i] != 0 ? 1 : 0;
@@ -155,7 +155,7 @@ class Comparison {
     instance.backend = backend;
     instance.nodes = problem.node_count();
     instance.edges = problem.edges.size();
-    instance.terminal_arcs = count_terminal_arcs(problem);
+    instance.terminal_nodes = count_terminal_nodes(problem);
     instance.statistics = problem_statistics(problem);
     instance.runs = solvers::compare_solvers(problem, a_.comparison);
     instance.defect = solvers::find_disagreement(instance.runs);
@@ -189,10 +189,14 @@ class Comparison {
     for (std::size_t i = 1; i < results.size(); ++i) {
       const auto& [first_name, first] = results[0];
       const auto& [name, other] = results[i];
-      const double energy = static_cast<double>(first.cut.value) / first.areas.scale;
-      const double other_energy = static_cast<double>(other.cut.value) / other.areas.scale;
-      pairs_.push_back({input, first_name, name, std::fabs(other_energy - energy) / energy,
-                        differing_cell_share(first.complex, other.complex)});
+      ComparedBackends pair{
+          input, first_name, name, {}, differing_cell_share(first.complex, other.complex)};
+      if (first.cut.canonical && other.cut.canonical) {
+        const double energy = static_cast<double>(first.cut.value) / first.areas.scale;
+        const double other_energy = static_cast<double>(other.cut.value) / other.areas.scale;
+        pair.energy_difference = std::fabs(other_energy - energy) / energy;
+      }
+      pairs_.push_back(std::move(pair));
     }
   }
 
@@ -330,6 +334,12 @@ int run_compare(CompareArguments& a) {
     if (instance.defect.empty()) continue;
     print_error(instance.input + ": " + instance.defect);
     return kCertificateFailed;
+  }
+  for (const ComparedInstance& instance : comparison.instances()) {
+    const auto refused = [](const solvers::SolverRun& run) { return !run.refused.empty(); };
+    if (!std::all_of(instance.runs.begin(), instance.runs.end(), refused)) continue;
+    print_error(instance.input + ": no solver solved it (" + instance.runs.front().refused + ")");
+    return kLimit;
   }
   return kDone;
 }

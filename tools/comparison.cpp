@@ -147,7 +147,7 @@ std::string comparison_csv(const std::vector<ComparedInstance>& instances) {
     for (const SolverRun& run : instance.runs) {
       const std::string name = std::filesystem::path(instance.input).stem().string();
       text += fmt::format("{},{},{},{},{},int64,int64,int64,uint32,{},{},1,1,", quoted(name),
-                          quoted(instance.input), instance.nodes, instance.terminal_arcs,
+                          quoted(instance.input), instance.nodes, instance.terminal_nodes,
                           instance.edges, run.info.name, run.solve_seconds.size());
       if (run.refused.empty()) {
         text += fmt::format("{:.9g},{:.9g},{},{},{},{},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{}\n",
@@ -187,11 +187,12 @@ Json comparison_json(const std::vector<ComparedInstance>& instances,
   }
   report["backends"] = Json::array();
   for (const ComparedBackends& pair : backends) {
-    report["backends"].push_back({{"input", pair.input},
-                                  {"first", pair.first},
-                                  {"second", pair.second},
-                                  {"energy_difference", pair.energy_difference},
-                                  {"differing_cells", pair.differing_cells}});
+    report["backends"].push_back(
+        {{"input", pair.input},
+         {"first", pair.first},
+         {"second", pair.second},
+         {"energy_difference", pair.energy_difference ? Json(*pair.energy_difference) : Json()},
+         {"differing_cells", pair.differing_cells}});
   }
   return report;
 }
@@ -221,9 +222,12 @@ std::string comparison_table(const std::vector<ComparedInstance>& instances,
     text += instance.defect.empty() ? "" : "  FAILED: " + instance.defect + "\n";
   }
   for (const ComparedBackends& pair : backends) {
-    text += fmt::format("{}: {} and {}: energy differs by {:.2e}, {:.4f} % of the cells differ\n",
+    const std::string energy =
+        pair.energy_difference ? fmt::format("energy differs by {:.2e}, ", *pair.energy_difference)
+                               : std::string();
+    text += fmt::format("{}: {} and {}: {}{:.4f} % of the cells differ\n",
                         std::filesystem::path(pair.input).filename().string(), pair.first,
-                        pair.second, pair.energy_difference, 100 * pair.differing_cells);
+                        pair.second, energy, 100 * pair.differing_cells);
   }
   add_means(text, instances);
   return text;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,7 +18,7 @@ struct ComparedInstance {
   std::string backend;  // empty for a problem file
   std::size_t nodes = 0;
   std::size_t edges = 0;
-  std::size_t terminal_arcs = 0;  // nodes with a source or a sink arc that has capacity
+  std::size_t terminal_nodes = 0;  // with a source or a sink arc that has capacity
   ProblemStatistics statistics;
   std::vector<solvers::SolverRun> runs;
   std::string defect;  // disagreement or a failed certificate; empty where all is well
@@ -32,8 +33,8 @@ struct ComparedBackends {
   std::string input;
   std::string first;
   std::string second;
-  double energy_difference = 0;  // relative
-  double differing_cells = 0;    // share
+  std::optional<double> energy_difference;  // relative; none where one of them was not solved
+  double differing_cells = 0;               // share
 };
 
 // The columns of the max-flow benchmark collection of Jensen et al. 2022, then ours. Times are

@@ -223,8 +223,9 @@ std::string backend_card(const Json& pairs) {
                         escape_html(file_name(Json{{"input", pair["input"]}})),
                         escape_html(pair["first"].get<std::string>()),
                         escape_html(pair["second"].get<std::string>()));
-    text += cell("energy_difference", pair["energy_difference"],
-                 fmt::format("{:.2e}", pair["energy_difference"].get<double>()));
+    const Json& energy = pair["energy_difference"];
+    text += cell("energy_difference", energy,
+                 energy.is_null() ? "not solved" : fmt::format("{:.2e}", energy.get<double>()));
     text += cell("differing_cells", pair["differing_cells"],
                  fmt::format("{:.4f} %", 100 * pair["differing_cells"].get<double>())) +
             "</tr>\n";

@@ -82,17 +82,32 @@ viz::LabelledCells labelled_cells(const RemeshResult& result, const RemeshOption
       {"cellocut_version", std::string(kCellocutVersion)},
       {"legend_label", std::string("0 interior, 1 exterior")},
       {"legend_anchored", std::string("0 free, 1 fixed interior, 2 fixed exterior")},
-      {"solver", solver},
+      {"backend", result.backend},
       {"lambda_fill", to_string(result.derived.lambda_fill)},
       {"resolution", static_cast<std::int64_t>(options.resolution)},
       {"epsilon", result.derived.epsilon},
       {"unit", result.frame.unit},
       {"area_bits", static_cast<std::int64_t>(options.area_bits)},
       {"area_quantum", 1 / result.areas.scale},
-      {"cut_value", result.cut.value},
-      {"cut_lower_bound", result.cut.lower_bound},
-      {"energy", static_cast<double>(result.cut.value) * energy_unit},
+      {"support", std::string(options.support == SupportRule::labels ? "labels" : "facets")},
+      {"exterior",
+       std::string(options.exterior == ExteriorMode::unbounded ? "unbounded" : "hull-cells")},
+      {"decimate", options.decimation.removed_share},
+      {"decimation",
+       std::string(options.decimation.method == DecimationMethod::clusters ? "clusters"
+                                                                           : "quadric")},
+      {"thickening", std::int64_t{options.thickening}},
+      {"unary", std::int64_t{options.unary}},
   };
+  if (!solver.empty()) cells.fields.push_back({"solver", solver});
+  if (!result.label.empty() || !result.cut.relaxed.empty()) {
+    const double energy = static_cast<double>(result.cut.value) * energy_unit;
+    cells.fields.push_back(
+        {"cut", std::string(options.cut == CutChoice::largest ? "largest" : "smallest")});
+    cells.fields.push_back({"cut_value", result.cut.value});
+    cells.fields.push_back({"cut_lower_bound", result.cut.lower_bound});
+    cells.fields.push_back({"energy", energy});
+  }
   if (!result.cut.relaxed.empty()) {
     cells.fields.push_back(
         {"legend_lp_value", std::string("0 interior to 1 exterior, before rounding")});

@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
@@ -31,7 +32,7 @@ extern "C" void on_interrupt(int signal) {
   }
 }
 
-constexpr int kStages = 9;  // of a remesh, for the bar
+constexpr int kStages = 13;  // of a remesh with default options, for the bar
 
 namespace fs = std::filesystem;
 
@@ -65,15 +66,31 @@ TerminalObserver::~TerminalObserver() { clear(); }
 void TerminalObserver::stage(std::string_view name) {
   if (lines_) fmt::print(stderr, "cellocut: {}\n", name);
   if (!bar_) return;
-  constexpr int kWidth = 24;
-  const int filled = std::min(kWidth, kWidth * stages_ / kStages);
-  fmt::print(stderr, "\r\033[K[{:#<{}}{:.<{}}] {}", "", filled, "", kWidth - filled, name);
-  std::fflush(stderr);
+  const std::lock_guard lock(drawing_);
+  name_ = name;
+  percent_ = 0;
+  draw();
   ++stages_;
-  drawn_ = true;
 }
 
-void TerminalObserver::progress(double /*done*/) {}
+void TerminalObserver::progress(double done) {
+  if (!bar_) return;
+  const std::unique_lock lock(drawing_, std::try_to_lock);
+  const int percent = static_cast<int>(100 * std::clamp(done, 0.0, 1.0));
+  if (!lock || percent <= percent_) return;
+  percent_ = percent;
+  draw();
+}
+
+void TerminalObserver::draw() {
+  constexpr int kWidth = 24;
+  const int filled = std::min(kWidth, kWidth * stages_ / kStages);
+  const std::string share = percent_ > 0 ? fmt::format(" {} %", percent_) : "";
+  fmt::print(stderr, "\r\033[K[{:#<{}}{:.<{}}] {}{}", "", filled, "", kWidth - filled, name_,
+             share);
+  std::fflush(stderr);
+  drawn_ = true;
+}
 
 bool TerminalObserver::cancelled() const { return interrupted.load(std::memory_order_relaxed); }
 
@@ -124,6 +141,13 @@ void require_writable(const std::vector<std::string>& paths,
   }
   for (const std::string& path : paths) {
     if (path.empty() || path == "-") continue;
+    std::error_code unknown;
+    if (fs::is_fifo(path, unknown)) {  // whoever reads it would take a probe for the whole
+      if (access(path.c_str(), W_OK) != 0) {
+        throw UsageError(path + ": cannot be written: " + std::generic_category().message(errno));
+      }
+      continue;
+    }
     try {
       const AtomicFile probe(path);
     } catch (const OutputError& error) {

@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -25,8 +26,8 @@ struct CommonOptions {
   void add_to(CLI::App& command);
 };
 
-// Progress on a terminal (a bar with the stage's name on standard error), stage names with
-// --verbose, and Ctrl-C as cancellation.
+// Progress on a terminal (a bar on standard error with the stage's name, and how much of it is done
+// where the stage tells), stage names with --verbose, and Ctrl-C as cancellation.
 class TerminalObserver : public Observer {
  public:
   explicit TerminalObserver(const CommonOptions& options);
@@ -41,9 +42,14 @@ class TerminalObserver : public Observer {
   void clear();
 
  private:
+  void draw();
+
   bool bar_;
   bool lines_;
-  int stages_ = 0;
+  std::mutex drawing_;
+  std::string name_;  // of the stage
+  int stages_ = 0;    // begun
+  int percent_ = 0;   // of the stage
   bool drawn_ = false;
 };
 

@@ -17,7 +17,7 @@ namespace cellocut {
 
 namespace {
 
-constexpr double kCell = 8;  // edge of the cells that are counted, in grid steps
+constexpr double kCell = 8;  // edge of the cells that are counted, in grid steps; at least
 constexpr double kStep = 4;  // between the points that find them
 
 // Bytes, fitted to runs (docs/performance.md).
@@ -26,8 +26,10 @@ constexpr double kPerCell = 38e3;
 constexpr double kPerCellUndecimated = 240e3;  // times the share of the proxy's faces that stays
 constexpr double kPerInputFace = 400;
 
-// The cells of `kCell` grid steps that the input meets.
-std::size_t count_cells(const TriangleSoup& input, int resolution) {
+// The cells of `kCell` grid steps that the input meets; where phi = 0 lies further from it than
+// that, larger ones, each for as many of them as its face holds: a needle becomes a pipe.
+double count_cells(const TriangleSoup& input, int resolution, double epsilon_steps) {
+  const double cell = epsilon_steps > kCell ? 2 * epsilon_steps : kCell;
   const Box3 box = bounding_box(input);
   const double per_unit = resolution / box.longest_edge();
   const auto place = [&](std::uint32_t point) {
@@ -44,7 +46,7 @@ std::size_t count_cells(const TriangleSoup& input, int resolution) {
     std::size_t limit = std::size_t{1} << 16;  // of keys that are kept unsorted
     const auto add = [&](const Point3& p) {
       std::uint64_t key = 0;
-      for (const double x : p) key = (key << 20) | static_cast<std::uint64_t>(x / kCell);
+      for (const double x : p) key = (key << 20) | static_cast<std::uint64_t>(x / cell);
       if (!keys.empty() && keys.back() == key) return;
       keys.push_back(key);
       if (keys.size() < limit) return;
@@ -68,7 +70,15 @@ std::size_t count_cells(const TriangleSoup& input, int resolution) {
   std::vector<std::uint64_t> all;
   for (const auto& keys : found) all.insert(all.end(), keys.begin(), keys.end());
   sort_out(all);
-  return all.size();
+  return static_cast<double>(all.size()) * (cell / kCell) * (cell / kCell);
+}
+
+std::int64_t estimate(const TriangleSoup& input, const RemeshOptions& options, int resolution) {
+  const double epsilon_steps = derive_parameters(input, options).epsilon * resolution;
+  const double per_cell = kPerCell + kPerCellUndecimated * (1 - options.decimation.removed_share);
+  const double bytes = kProgram + per_cell * count_cells(input, resolution, epsilon_steps) +
+                       kPerInputFace * static_cast<double>(input.triangles.size());
+  return static_cast<std::int64_t>(bytes);
 }
 
 std::string gigabytes(std::int64_t bytes) {
@@ -80,27 +90,24 @@ std::string gigabytes(std::int64_t bytes) {
 }  // namespace
 
 std::int64_t estimate_memory(const TriangleSoup& input, const RemeshOptions& options) {
-  const double per_cell = kPerCell + kPerCellUndecimated * (1 - options.decimation.removed_share);
-  const double bytes = kProgram +
-                       per_cell * static_cast<double>(count_cells(input, options.resolution)) +
-                       kPerInputFace * static_cast<double>(input.triangles.size());
-  return static_cast<std::int64_t>(bytes);
+  return estimate(input, options, options.resolution);
 }
 
 std::int64_t check_memory(const TriangleSoup& input, const RemeshOptions& options) {
-  const std::int64_t estimate = estimate_memory(input, options);
-  if (options.memory_limit == 0 || estimate <= options.memory_limit) return estimate;
+  const std::int64_t needed = estimate_memory(input, options);
+  if (options.memory_limit == 0 || needed <= options.memory_limit) return needed;
   // The largest resolution that fits, to an eighth of it.
-  RemeshOptions smaller = options;
-  while (smaller.resolution > 8 && estimate_memory(input, smaller) > options.memory_limit) {
-    smaller.resolution -= std::max(1, smaller.resolution / 8);
+  int smaller = options.resolution;
+  bool fits = false;
+  while (smaller > 8 && !fits) {
+    smaller -= std::max(1, smaller / 8);
+    fits = estimate(input, options, smaller) <= options.memory_limit;
   }
-  std::string what = "needs about " + gigabytes(estimate) + " of memory at --resolution " +
+  std::string what = "needs about " + gigabytes(needed) + " of memory at --resolution " +
                      std::to_string(options.resolution) + ", and " +
                      gigabytes(options.memory_limit) + " are there to be used (--memory)";
-  what += smaller.resolution > 8
-              ? "; --resolution " + std::to_string(smaller.resolution) + " would fit"
-              : "; no resolution would fit";
+  what += fits ? "; --resolution " + std::to_string(smaller) + " would fit"
+               : "; no resolution would fit";
   throw LimitError(what);
 }
 

@@ -10,10 +10,10 @@ namespace cellocut {
 struct RemeshOptions;
 
 // The largest resident set of remesh() with these options, in bytes, about: it grows with the area
-// of the input in grid steps, each part of space counted once, with the share of the proxy's faces
-// that stays, and with the number of the input's faces. docs/performance.md compares it with what
-// runs took. Precondition: options and input that derive_parameters() takes. Parallel; O(faces +
-// area / (4h)^2).
+// of the input, or of phi = 0, in grid steps, each part of space counted once, with the share of
+// the proxy's faces that stays, and with the number of the input's faces. docs/performance.md
+// compares it with what runs took. Precondition: options and input that derive_parameters() takes.
+// Parallel; O(faces + area / (4h)^2).
 std::int64_t estimate_memory(const TriangleSoup& input, const RemeshOptions& options);
 
 // Errors: LimitError where the estimate is above options.memory_limit; it names a resolution that

@@ -40,6 +40,7 @@ void RemeshOptions::validate() const {
           "--lambda-fill auto needs the slab and the anchored cells: no --no-thickening, no "
           "--no-unary");
   require(surface != SurfaceMode::cells || !pulls(), "--surface cells cannot be pulled");
+  require(thickening || !pulls(), "--no-thickening leaves nothing to be pulled back");
   require(surface != SurfaceMode::cells || !fair, "--surface cells cannot be faired");
   require(!pull_distance || pulls(), "--pull-distance needs --pull");
   require(!pull_distance || (*pull_distance > 0 && *pull_distance <= 1),

@@ -244,6 +244,7 @@ RemeshResult pose_cut(const TriangleSoup& input, const RemeshOptions& options,
   // Stage 1: discretization.
   result.derived = derive_parameters(input, options);
   result.memory_estimate = check_memory(input, options);
+  result.backend = tetrahedralizer.info().name;
   result.frame =
       make_frame(bounding_box(input), options.resolution, result.derived.epsilon_steps + kBand + 1);
   result.phi = stage("field", [&] { return compute_phi(input, options, result, observer); });

@@ -112,6 +112,7 @@ DerivedParameters derive_parameters(const TriangleSoup& input, const RemeshOptio
 struct RemeshResult {
   DerivedParameters derived;
   std::int64_t memory_estimate = 0;  // bytes
+  std::string backend;               // the tetrahedralizer's name
   Frame frame;
   SparseField phi;  // the thickening field, in grid steps
   Proxy proxy;

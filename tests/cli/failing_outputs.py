@@ -73,6 +73,13 @@ class FullDisk(ProgramCase):
                        "--json", "out.json", outputs=("out.json",),
                        env=self.shimmed(CELLOCUT_TEST_WRITE_LIMIT="100"))
 
+    def test_named_pipe_gets_the_whole_and_no_more(self):
+        self.succeed("remesh", "holed.obj", "-o", "file.obj", "--quiet", *COARSE)
+        os.mkfifo(self.path("pipe"))
+        with subprocess.Popen(["cat", "pipe"], cwd=self.folder, stdout=subprocess.PIPE) as reader:
+            self.succeed("remesh", "holed.obj", "-o", "pipe", "--output-format", "obj", "--quiet", *COARSE)
+            self.assertEqual(reader.communicate(timeout=60)[0], self.get("file.obj"))
+
     def test_full_device(self):
         self.fail_with(6, r"\Acellocut: /dev/full: cannot write: No space left", "remesh", "holed.obj",
                        "-o", "/dev/full", "--output-format", "obj", "--quiet", *COARSE)

@@ -149,6 +149,17 @@ class Solve(ProgramCase):
 
 
 class Compare(ProgramCase):
+    def compare_within_no_time(self):
+        """Nothing is solved: no energies to compare, none in the cells, and the code of a limit."""
+        run = self.run_program("compare", "holed.obj", "-o", "none", *COARSE, "--time-limit", "1e-9")
+        self.assertEqual(run.returncode, 6)
+        self.assertRegex(run.stderr.decode(), r"\Acellocut: holed\.obj: no solver solved it \(.*\)\n\Z")
+        self.assertNotIn(b"nan", run.stdout)
+        for pair in json.loads(self.get("none/compare.json"))["backends"]:
+            self.assertIsNone(pair["energy_difference"])
+        if HAS_VTU:
+            self.assertNotIn(b"cut_value", self.get("none/holed_cgal.vtu"))
+
     def test_a_mesh_and_a_problem_on_everything_that_is_built(self):
         self.put("small.max", SMALL)
         run = self.succeed("compare", "holed.obj", "small.max", "-o", "out", "--repeat", "2", *COARSE,
@@ -175,6 +186,7 @@ class Compare(ProgramCase):
         self.assertEqual({instance["defect"] for instance in report["instances"]}, {""})
         if len(backends) > 1:
             self.assertLess(report["backends"][0]["energy_difference"], 1e-3)
+        self.compare_within_no_time()
         for backend in backends:
             for ending in (".max", ".bbk") + ((".vtu",) if HAS_VTU else ()):
                 self.assertGreater(os.path.getsize(self.path(f"out/holed_{backend}{ending}")), 0)

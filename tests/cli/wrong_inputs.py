@@ -198,6 +198,7 @@ class SurfaceOptions(ProgramCase):
     def test_what_does_not_go_together(self):
         for wrong, words in (((("--no-unary",)), "--surface sdf or cells"),
                              ((("--no-thickening",)), "--surface sdf or cells"),
+                             (("--no-thickening", "--surface", "sdf", "--pull"), "nothing to be pulled"),
                              ((("--surface", "cells", "--pull")), "cells cannot be pulled"),
                              ((("--surface", "cells", "--fair")), "cells cannot be faired"),
                              ((("--surface", "cells", "--faces", "100")), "cells cannot be simplified"),

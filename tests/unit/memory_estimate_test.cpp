@@ -45,6 +45,21 @@ TEST(MemoryEstimate, CountsSpaceOnceAndFacesEach) {
   EXPECT_LT(more, 1000 * static_cast<std::int64_t>(sphere.triangles.size()));
 }
 
+// A needle becomes a pipe: what counts is the area of phi = 0.
+TEST(MemoryEstimate, GrowsWithEpsilonWhereThatIsWide) {
+  TriangleSoup needle;
+  needle.points = {{0, 0, 0}, {1, 0, 0}, {1, 1e-6, 0}};
+  needle.triangles = {{0, 1, 2}};
+  const auto with_epsilon = [&](double epsilon) {
+    RemeshOptions options = at(512);
+    options.epsilon = epsilon;
+    return static_cast<double>(estimate_memory(needle, options) - fixed_part(needle));
+  };
+  EXPECT_EQ(with_epsilon(1.0 / 512), with_epsilon(4.0 / 512));
+  EXPECT_NEAR(with_epsilon(0.1) / with_epsilon(0.05), 2, 0.5);
+  EXPECT_GT(with_epsilon(0.5), 10 * with_epsilon(1.0 / 512));
+}
+
 // Large faces are walked over, small ones are points: both find the same space.
 TEST(MemoryEstimate, DoesNotDependOnHowASurfaceIsCut) {
   const TriangleSoup coarse = test::box({0, 0, 0}, {1, 0.7, 0.4});

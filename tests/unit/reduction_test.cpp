@@ -109,6 +109,24 @@ TEST(Reduction, ADominatedNodeBecomesSourcesOfItsNeighbours) {
 }
 
 // Labels of a minimum cut of what is left, lifted, are those of a minimum cut of the whole.
+// Joining the leaves wakes their hub each time, which must not walk over all that have gone.
+TEST(Reduction, TakesLeavesOffAHubInNoMoreThanAFewStepsEach) {
+  constexpr std::uint32_t kLeaves = 1'000'000;
+  CutProblem problem;
+  problem.to_source.assign(kLeaves + 2, 0);
+  problem.to_sink.assign(kLeaves + 2, 0);
+  problem.to_source[kLeaves] = 5;
+  problem.to_sink[kLeaves + 1] = 4;
+  for (std::uint32_t i = 0; i < kLeaves; ++i) problem.edges.push_back({i, kLeaves, 1, 1});
+  problem.edges.push_back({kLeaves, kLeaves + 1, 3, 3});
+  const Reduction joined(problem, {.unreachable = false, .dominated = false, .heavy_edges = true});
+  EXPECT_GE(joined.counts().heavy_edges, kLeaves);
+  const Reduction all(problem);
+  const std::vector<std::int64_t> flow =
+      all.lift(solvers::make("bk")->solve(all.problem()).edge_flow);
+  EXPECT_EQ(GivenFlow(flow).solve(problem).value, 3);
+}
+
 TEST(Reduction, LiftsLabels) {
   for (const testing::RandomShape shape : testing::random_shapes()) {
     for (std::uint64_t seed = 1; seed <= 30; ++seed) {

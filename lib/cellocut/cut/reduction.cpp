@@ -139,12 +139,23 @@ void Reducer::drop_unreachable() {
   }
 }
 
-// The living halves of i, also as its new list. False where they are too many.
+// The living halves of i, also as its new list. False where they are too many; dead ones that were
+// met leave the list all the same, so that nobody meets them again.
 bool Reducer::gather(std::uint32_t i) {
   halves_.clear();
+  std::uint32_t alive = kNone;  // the last one
   for (std::uint32_t half = first_[i]; half != kNone; half = next_[half]) {
     if (dead_[half / 2] != 0) continue;
-    if (halves_.size() == kMostHalves) return false;
+    if (halves_.size() == kMostHalves) {
+      next_[alive] = half;
+      return false;
+    }
+    if (alive == kNone) {
+      first_[i] = half;
+    } else {
+      next_[alive] = half;
+    }
+    alive = half;
     halves_.push_back(half);
   }
   merge_parallel();

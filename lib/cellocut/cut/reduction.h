@@ -37,8 +37,8 @@ struct ReductionCounts {
 
 class Reduction {
  public:
-  // Precondition: problem.validate() holds, fewer than 2^31 edges (LimitError). O(nodes + edges),
-  // up to the inverse of Ackermann's function.
+  // Precondition: problem.validate() holds, fewer than 2^31 edges (LimitError). O((nodes + edges)
+  // log nodes).
   explicit Reduction(const CutProblem& problem, const ReductionRules& rules = {});
 
   // What is left to be solved. Its value is not that of the whole: lift a flow, and look there.

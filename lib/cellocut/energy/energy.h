@@ -92,7 +92,7 @@ std::vector<std::int64_t> support_by_labels(const FacetList& facets, const Facet
 std::int64_t facet_capacity(const FacetAreas& areas, std::size_t f, const Rational& lambda);
 
 // E(labels) in integer units (divide by denominator * scale for squared relative units).
-// Errors: LimitError where a sum of all capacities reaches 2^62.
+// Errors: LimitError where that reaches 2^62.
 std::int64_t labelling_energy(const FacetList& facets, const FacetAreas& areas,
                               const Rational& lambda, const CellLabels& labels);
 

@@ -1,5 +1,6 @@
 #include "cellocut/surface/components.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
@@ -26,7 +27,9 @@ std::int64_t drop_small_components(TriangleSoup& surface, double share) {
     volume[find(t[0])] += part;
     total += part;
   }
-  const double limit = share * std::fabs(total);
+  double largest = 0;
+  for (const double part : volume) largest = std::max(largest, std::fabs(part));
+  const double limit = std::min(share * std::fabs(total), largest);
   const auto dropped = [&](std::uint32_t v) { return std::fabs(volume[find(v)]) < limit; };
 
   std::int64_t count = 0;

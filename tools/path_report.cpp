@@ -7,6 +7,7 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "tools/html_parts.h"
 #include "tools/report_json.h"
 
 namespace cellocut::tools {
@@ -46,20 +47,6 @@ class PlotFrame {
   double low_;
   double high_;
 };
-
-std::string escaped(const std::string& text) {
-  std::string result;
-  for (const char c : text) {
-    if (c == '&') {
-      result += "&amp;";
-    } else if (c == '<') {
-      result += "&lt;";
-    } else {
-      result += c;
-    }
-  }
-  return result;
-}
 
 // A line of steps through a value of each entry.
 template <class Value>
@@ -148,7 +135,7 @@ std::string path_plot(const std::vector<PathEntry>& entries, const std::string& 
       "font-family=\"sans-serif\" font-size=\"13\">\n"
       "<rect width=\"920\" height=\"420\" fill=\"white\"/>\n";
   const auto out = std::back_inserter(svg);
-  fmt::format_to(out, "<text x=\"60\" y=\"24\" font-size=\"15\">{}</text>\n", escaped(title));
+  fmt::format_to(out, "<text x=\"60\" y=\"24\" font-size=\"15\">{}</text>\n", escape_html(title));
   for (int decade = frame.first_decade(); decade <= frame.last_decade(); ++decade) {
     const double lambda = std::pow(10.0, decade);
     fmt::format_to(out,

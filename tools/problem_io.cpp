@@ -14,12 +14,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-bool ends_with(std::string path, std::string_view ending) {
-  std::transform(path.begin(), path.end(), path.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return path.ends_with(ending);
-}
-
 // Bins up to the last that is not empty; bin k counts 2^k <= capacity < 2^(k + 1).
 Json histogram_json(const CapacityHistogram& histogram) {
   const auto last = std::find_if(histogram.rbegin(), histogram.rend(),
@@ -30,8 +24,8 @@ Json histogram_json(const CapacityHistogram& histogram) {
 }  // namespace
 
 std::optional<ProblemFormat> problem_format_of_path(const std::string& path) {
-  if (ends_with(path, ".max")) return ProblemFormat::dimacs;
-  if (ends_with(path, ".bbk")) return ProblemFormat::bbk;
+  if (has_ending(path, ".max")) return ProblemFormat::dimacs;
+  if (has_ending(path, ".bbk")) return ProblemFormat::bbk;
   return std::nullopt;
 }
 

@@ -42,25 +42,10 @@ struct Inputs {
   std::vector<std::string> names;  // of the meshes
 };
 
-bool ends_with(const std::string& text, const std::string& ending) {
-  std::string lower = text;
-  std::transform(lower.begin(), lower.end(), lower.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return lower.size() >= ending.size() &&
-         lower.compare(lower.size() - ending.size(), ending.size(), ending) == 0;
-}
-
 viz::PictureFormat picture_format(const std::string& path) {
-  if (ends_with(path, ".png")) return viz::PictureFormat::png;
-  if (ends_with(path, ".svg")) return viz::PictureFormat::svg;
+  if (has_ending(path, ".png")) return viz::PictureFormat::png;
+  if (has_ending(path, ".svg")) return viz::PictureFormat::svg;
   throw UsageError(path + ": a section is written as .png or .svg");
-}
-
-void extend(Box3& box, const Point3& p, bool first) {
-  for (int axis = 0; axis < 3; ++axis) {
-    box.low[axis] = first ? p[axis] : std::min(box.low[axis], p[axis]);
-    box.high[axis] = first ? p[axis] : std::max(box.high[axis], p[axis]);
-  }
 }
 
 std::string file_name(const std::string& path) { return path.substr(path.find_last_of('/') + 1); }
@@ -71,7 +56,7 @@ Inputs read_inputs(const SectionArguments& a) {
   Inputs inputs;
   std::vector<std::size_t> of_all;
   for (const std::string& path : a.inputs) {
-    if (ends_with(path, ".vtu")) {
+    if (has_ending(path, ".vtu")) {
       inputs.runs.push_back({file_name(path), viz::read_vtu(path), of_all});
       continue;
     }
@@ -95,8 +80,9 @@ Box3 box_of(const Inputs& inputs) {
   bool first = true;
   const auto extend_all = [&](const std::vector<Point3>& points) {
     for (const Point3& p : points) {
-      extend(box, p, first);
+      if (first) box = {p, p};
       first = false;
+      box.include(p);
     }
   };
   for (const Run& run : inputs.runs) extend_all(run.cells.points);

@@ -7,6 +7,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cctype>
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
@@ -175,6 +176,12 @@ TriangleSoup read_input(const std::string& path, const std::string& format) {
   std::optional<MeshFormat> named;
   if (!format.empty()) named = format_of_name(format);
   return read_mesh(path, named);
+}
+
+bool has_ending(std::string path, std::string_view ending) {
+  std::transform(path.begin(), path.end(), path.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return path.ends_with(ending);
 }
 
 void write_text(const std::string& path, const std::string& text) {

@@ -5,6 +5,7 @@
 #include <memory>
 #include <mutex>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "cellocut/base/observer.h"
@@ -86,6 +87,9 @@ void require_folder(const std::string& path);
 // read_mesh() for a path of the command line; `format` is empty where its name tells it.
 // Errors: as read_mesh(); InputError for a directory, whatever its name.
 TriangleSoup read_input(const std::string& path, const std::string& format = {});
+
+// Whether a file's name ends so, in small letters or capitals.
+bool has_ending(std::string path, std::string_view ending);
 
 // Writes text through AtomicFile.
 void write_text(const std::string& path, const std::string& text);

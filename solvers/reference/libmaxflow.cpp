@@ -36,10 +36,6 @@ void report_library_error(const char* what) {
   throw LimitError(std::string("libmaxflow: ") + what);
 }
 
-bool is_passed_on(const CutEdge& edge) {
-  return edge.from != edge.to && (edge.capacity | edge.reverse_capacity) != 0;
-}
-
 class LibMaxflow final : public CutSolver {
  public:
   [[nodiscard]] const SolverInfo& info() const override {
@@ -69,7 +65,7 @@ class LibMaxflow final : public CutSolver {
                          static_cast<double>(problem.to_sink[static_cast<std::size_t>(i)]));
     }
     for (const CutEdge& edge : problem.edges) {
-      if (!is_passed_on(edge)) continue;
+      if (!has_arcs(edge)) continue;
       graph.add_edge(static_cast<int>(edge.from), static_cast<int>(edge.to),
                      static_cast<double>(edge.capacity),
                      static_cast<double>(edge.reverse_capacity));
@@ -81,7 +77,7 @@ class LibMaxflow final : public CutSolver {
     output.edge_flow.assign(problem.edges.size(), 0);
     Graph::arc_id arc = graph.get_first_arc();
     for (std::size_t e = 0; e < problem.edges.size(); ++e) {
-      if (!is_passed_on(problem.edges[e])) continue;
+      if (!has_arcs(problem.edges[e])) continue;
       output.edge_flow[e] =
           problem.edges[e].capacity - static_cast<std::int64_t>(graph.get_rcap(arc));
       arc = graph.get_next_arc(graph.get_next_arc(arc));  // the next but one: skip the sister

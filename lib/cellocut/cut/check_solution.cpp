@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <tuple>
 
+#include "cellocut/base/wide_text.h"
 #include "cellocut/cut/dimacs_arcs.h"
 #include "cellocut/cut/problem_file.h"
 
@@ -9,19 +10,6 @@ namespace cellocut {
 namespace {
 
 __extension__ using Wide = __int128;
-
-std::string text_of(Wide number) {
-  const bool negative = number < 0;
-  std::string digits;  // last first
-  do {
-    const int digit = static_cast<int>(number % 10);
-    digits += static_cast<char>('0' + (negative ? -digit : digit));
-    number /= 10;
-  } while (number != 0);
-  if (negative) digits += '-';
-  std::reverse(digits.begin(), digits.end());
-  return digits;
-}
 
 std::string pair_of(const DimacsArc& arc) {
   return "from " + std::to_string(arc.from) + " to " + std::to_string(arc.to);
@@ -65,12 +53,12 @@ std::string capacity_defect(const std::vector<DimacsArc>& arcs,
     if (at == arcs.size() || ends(arcs[at]) != ends(pair)) {
       // Where an edge has no capacity that way, an arc may have stood in the file all the same.
       if (flow == 0) continue;
-      return "flow " + text_of(flow) + " " + pair_of(pair) + ", where no arc has capacity";
+      return "flow " + to_decimal(flow) + " " + pair_of(pair) + ", where no arc has capacity";
     }
     const Wide capacity = take_pair(arcs, at);
     if (flow > capacity) {
-      return "flow " + text_of(flow) + " " + pair_of(pair) + " exceeds the capacity " +
-             text_of(capacity);
+      return "flow " + to_decimal(flow) + " " + pair_of(pair) + " exceeds the capacity " +
+             to_decimal(capacity);
     }
   }
   return {};
@@ -103,11 +91,11 @@ std::string check_solution(const DimacsProblem& problem, const FlowSolution& sol
     if (id == problem.nodes.source || id == problem.nodes.sink || out[id] == 0) continue;
     return "at node " + std::to_string(id) +
            (out[id] > 0 ? " more flows out than in, by " : " more flows in than out, by ") +
-           text_of(out[id] > 0 ? out[id] : -out[id]);
+           to_decimal(out[id] > 0 ? out[id] : -out[id]);
   }
   if (out[problem.nodes.source] != solution.value) {
     return "the value is given as " + std::to_string(solution.value) + ", but " +
-           text_of(out[problem.nodes.source]) + " flows out of the source";
+           to_decimal(out[problem.nodes.source]) + " flows out of the source";
   }
   return {};
 }

@@ -32,6 +32,7 @@
 
 #include "cellocut/base/first_index.h"
 #include "cellocut/base/point.h"
+#include "cellocut/base/wide_text.h"
 
 namespace cellocut {
 
@@ -39,20 +40,6 @@ namespace {
 
 // Capacities reach 2^70 (area_bits 50, lambda 2^20), sums of them 2^72; 64 bits would wrap.
 __extension__ using Wide = __int128;
-
-std::string decimal(Wide value) {
-  __extension__ using Magnitude = unsigned __int128;
-  const bool negative = value < 0;
-  Magnitude rest = negative ? -static_cast<Magnitude>(value) : static_cast<Magnitude>(value);
-  std::string digits;
-  do {
-    digits.push_back(static_cast<char>('0' + static_cast<int>(rest % 10)));
-    rest /= 10;
-  } while (rest != 0);
-  if (negative) digits.push_back('-');
-  std::reverse(digits.begin(), digits.end());
-  return digits;
-}
 
 // What one check found.
 struct Finding {
@@ -367,13 +354,14 @@ Finding Checker::check_capacities() {
     const auto [cell, corner] = facets_[over];
     return failed("facet " + std::to_string(over) + " between cell " + std::to_string(cell) +
                   " and " + cell_name(neighbour(cell, corner)) + " carries " +
-                  decimal(claim_.facet_flow[over]) + ", its capacity is " +
-                  decimal(capacities_[over]));
+                  to_decimal(claim_.facet_flow[over]) + ", its capacity is " +
+                  to_decimal(capacities_[over]));
   }
   const Wide saturated = sum_of(facets_.size(), [&](std::size_t f) -> Wide {
     return magnitude(f) == capacities_[f] ? 1 : 0;
   });
-  return {true, decimal(saturated) + " of " + std::to_string(facets_.size()) + " facets saturated"};
+  return {true,
+          to_decimal(saturated) + " of " + std::to_string(facets_.size()) + " facets saturated"};
 }
 
 Finding Checker::check_conservation() const {
@@ -383,7 +371,7 @@ Finding Checker::check_conservation() const {
     ++free_cells;
     const Wide net = net_flow_out(c);
     if (net != 0) {
-      return failed("free cell " + std::to_string(c) + " has a net outflow of " + decimal(net));
+      return failed("free cell " + std::to_string(c) + " has a net outflow of " + to_decimal(net));
     }
   }
   return {true, std::to_string(free_cells) + " free cells"};
@@ -415,7 +403,7 @@ Finding Checker::check_energy(const CellLabels& labels) const {
     if (labels[cell] != beyond) energy += capacities_[f];
   }
   return {energy == claim_.value,
-          "energy " + decimal(energy) + ", claimed " + decimal(claim_.value)};
+          "energy " + to_decimal(energy) + ", claimed " + to_decimal(claim_.value)};
 }
 
 Finding Checker::check_flow_value() const {
@@ -423,7 +411,8 @@ Finding Checker::check_flow_value() const {
   for (std::size_t c = 0; c < cell_count(); ++c) {
     if (interior_anchor(c)) flow += net_flow_out(c);
   }
-  return {flow == claim_.value, "flow " + decimal(flow) + ", claimed " + decimal(claim_.value)};
+  return {flow == claim_.value,
+          "flow " + to_decimal(flow) + ", claimed " + to_decimal(claim_.value)};
 }
 
 // Marks what the interior anchors reach over open residual arcs (from_interior), or what reaches

@@ -1,27 +1,12 @@
 #include "cellocut/mesh/point_merger.h"
 
 #include <algorithm>
-#include <bit>
 #include <limits>
 
 #include "cellocut/base/errors.h"
+#include "cellocut/base/point_hash.h"
 
 namespace cellocut::mesh_io {
-namespace {
-
-std::size_t hash_of(const Point3& point) {
-  std::uint64_t hash = 0;
-  for (const double coordinate : point) {
-    // Adding +0 turns -0 into +0, so that equal coordinates have equal bits.
-    hash ^= std::bit_cast<std::uint64_t>(coordinate + 0.0);
-    hash *=
-        0x9E3779B97F4A7C15u;  // 2^64 / golden ratio: multiplicative hashing (Knuth, TAOCP 3, 6.4)
-    hash ^= hash >> 29;
-  }
-  return hash;
-}
-
-}  // namespace
 
 std::uint32_t PointMerger::index_of(const Point3& point, std::vector<Point3>& points) {
   if (points.size() * 2 >= slots_.size()) grow(points);

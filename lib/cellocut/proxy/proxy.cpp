@@ -4,6 +4,7 @@
 
 #include <bit>
 
+#include "cellocut/base/random_stream.h"
 #include "cellocut/mesh/unused_points.h"
 #include "cellocut/proxy/clustering.h"
 #include "cellocut/proxy/edge_collapses.h"
@@ -13,20 +14,13 @@ namespace cellocut {
 
 namespace {
 
-// The finaliser of SplitMix64 (Steele, Lea, Flood, "Fast splittable pseudorandom number
-// generators", 2014).
-std::uint64_t mix(std::uint64_t x) {
-  x = (x ^ (x >> 30)) * 0xBF58476D1CE4E5B9U;
-  x = (x ^ (x >> 27)) * 0x94D049BB133111EBU;
-  return x ^ (x >> 31);
-}
-
 Point3 break_ties(const Point3& p) {
   std::uint64_t hash = 0;
-  for (const double x : p) hash = mix(hash + 0x9E3779B97F4A7C15U + std::bit_cast<std::uint64_t>(x));
+  for (const double x : p)
+    hash = mix_bits(hash + 0x9E3779B97F4A7C15U + std::bit_cast<std::uint64_t>(x));
   Point3 moved = p;
   for (double& x : moved) {
-    hash = mix(hash + 0x9E3779B97F4A7C15U);
+    hash = mix_bits(hash + 0x9E3779B97F4A7C15U);
     x += kTieBreak * (static_cast<double>(hash >> 11) * 0x1p-52 - 1);  // a share in [-1, 1)
   }
   return moved;

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <array>
-#include <numeric>
 
+#include "cellocut/base/disjoint_sets.h"
 #include "cellocut/base/errors.h"
 
 namespace cellocut {
@@ -107,23 +107,12 @@ class Pairing {
   // One copy of a vertex for each group of corners that paired edges connect (union-find over
   // corners).
   void assign_copies() {
-    group_.resize(mate_.size());
-    std::iota(group_.begin(), group_.end(), 0U);
+    groups_ = DisjointSets(mate_.size());
     for (std::uint32_t h = 0; h < mate_.size(); ++h) {
       // The corner at from(h) and the corner of the mate at the same vertex, which is where it
       // ends.
-      unite(h, next(mate_[h]));
+      groups_.join(h, next(mate_[h]));
     }
-  }
-
-  std::uint32_t find(std::uint32_t c) {
-    while (group_[c] != c) c = group_[c] = group_[group_[c]];
-    return c;
-  }
-  void unite(std::uint32_t a, std::uint32_t b) {
-    a = find(a);
-    b = find(b);
-    group_[std::max(a, b)] = std::min(a, b);
   }
 
   // At each crowded edge, two pairs that lie between the same two copies swap their mates. A swap
@@ -137,9 +126,10 @@ class Pairing {
         for (std::size_t j = i + 1; j < edge.size(); ++j) {
           const std::uint32_t a = edge[i];
           const std::uint32_t b = edge[j];
-          const std::uint32_t low = find(a);
-          const std::uint32_t high = find(next(a));
-          if (low != find(b) || high != find(next(b)) || stale[low] || stale[high]) continue;
+          const std::uint32_t low = groups_.root(a);
+          const std::uint32_t high = groups_.root(next(a));
+          if (low != groups_.root(b) || high != groups_.root(next(b)) || stale[low] || stale[high])
+            continue;
           stale[low] = stale[high] = true;
           std::swap(mate_[a], mate_[b]);
           mate_[mate_[a]] = a;
@@ -156,7 +146,7 @@ class Pairing {
     std::vector<std::uint32_t> number(mate_.size(), 0);
     surface.triangles.resize(corners_.size());
     for (std::uint32_t c = 0; c < mate_.size(); ++c) {
-      const std::uint32_t root = find(c);
+      const std::uint32_t root = groups_.root(c);
       if (root == c) {
         number[c] = static_cast<std::uint32_t>(surface.points.size());
         surface.points.push_back(complex_.points[from(c)]);
@@ -172,7 +162,7 @@ class Pairing {
   std::vector<std::array<std::uint32_t, 3>> corners_;
   std::vector<std::uint32_t> mate_;
   std::vector<std::vector<std::uint32_t>> crowded_;
-  std::vector<std::uint32_t> group_;
+  DisjointSets groups_{0};
 };
 
 }  // namespace

@@ -8,20 +8,14 @@
 #include <cmath>
 
 #include "cellocut/base/buckets.h"
+#include "cellocut/base/point_hash.h"
 
 namespace cellocut {
 
 namespace {
 
-std::uint64_t hash_of(const Point3& p) {
-  std::uint64_t hash = 0;
-  for (const double coordinate : p) {
-    hash ^= std::bit_cast<std::uint64_t>(coordinate + 0.0);  // -0.0 + 0.0 is 0.0
-    hash *= 0x9E3779B97F4A7C15U;                             // 2^64 / golden ratio
-    hash ^= hash >> 29U;
-  }
-  return hash * 0x9E3779B97F4A7C15U;
-}
+// Well mixed in its highest bits.
+std::uint64_t bucket_hash(const Point3& p) { return hash_of(p) * 0x9E3779B97F4A7C15U; }
 
 }  // namespace
 
@@ -29,7 +23,7 @@ std::vector<std::uint32_t> merge_equal_positions(const std::vector<Point3>& poin
   std::vector<std::uint32_t> first(points.size());
   const auto bits = static_cast<unsigned>(std::bit_width(points.size()));
   Buckets buckets(std::size_t{1} << bits, points.size(), [&](std::size_t i) {
-    return is_finite(points[i]) ? static_cast<std::uint32_t>(hash_of(points[i]) >> (64U - bits))
+    return is_finite(points[i]) ? static_cast<std::uint32_t>(bucket_hash(points[i]) >> (64U - bits))
                                 : kNoBucket;
   });
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, points.size()), [&](const auto& range) {

@@ -237,6 +237,15 @@ std::string describe_defects(const SurfaceReport& report) {
   return text.empty() ? "no faces" : text;
 }
 
+// What else may be written where this format is too coarse for a valid surface.
+std::string remedy(MeshFormat format) {
+  if (format == MeshFormat::stl) {
+    return "; binary STL keeps floats: use OBJ, PLY or --output-format stl-ascii";
+  }
+  if (format == MeshFormat::stl_ascii) return "; STL merges equal points: use OBJ or PLY";
+  return {};
+}
+
 // The exit code, and in one line what is wrong, if anything.
 struct Verdict {
   ExitCode code = kDone;
@@ -261,13 +270,9 @@ Verdict judge(const RemeshResult& result, const RemeshArguments& a) {
     return {kNoGuarantee, a.input + ": no cell is interior, there is no solid to write"};
   }
   if (!result.surface_report.valid()) {
-    const bool stl = a.options().output_format == MeshFormat::stl ||
-                     a.options().output_format == MeshFormat::stl_ascii;
-    return {
-        kNoGuarantee,
-        a.output + ": not written, the surface would not be valid (" +
-            describe_defects(result.surface_report) + ")" +
-            (stl ? "; STL merges equal points and binary STL rounds them: use OBJ or PLY" : "")};
+    return {kNoGuarantee, a.output + ": not written, the surface would not be valid (" +
+                              describe_defects(result.surface_report) + ")" +
+                              remedy(a.options().output_format)};
   }
   return {};
 }

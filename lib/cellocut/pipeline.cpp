@@ -190,22 +190,25 @@ void choose_lambda(RemeshResult& result, CutSolver& solver, LazyNearest& nearest
                                   result.derived.lambda_fill);
 }
 
-// What is done to the extracted surface: the supported part goes to the input, the completed one
-// where it bends least; then fewer triangles, and where each vertex comes from.
+// What is done to the extracted surface, in the coordinates that its file keeps: the supported part
+// goes to the input, the completed one where it bends least; then fewer triangles, and where each
+// vertex comes from.
 void treat_surface(const TriangleSoup& input, const RemeshOptions& options, RemeshResult& result,
                    LazyNearest& nearest_point, StageClock& stage, Observer& observer) {
   const double unit = result.frame.unit;
+  const Coordinates coordinates = coordinates_of(options.output_format);
+  for (Point3& p : result.surface.points) p = kept(p, coordinates);
   if (options.pulls()) {
     result.pull = stage("pull", [&] {
       return pull_to_input(result.surface, result.supported, nearest_point(),
                            result.derived.epsilon * unit, result.derived.pull_distance * unit,
-                           observer);
+                           observer, coordinates);
     });
   }
   if (options.fair) {
     result.fair = stage("fairing", [&] {
       return fair_surface(result.surface, result.supported, nearest_point(), result.frame.spacing,
-                          result.derived.pull_distance * unit, observer);
+                          result.derived.pull_distance * unit, observer, coordinates);
     });
   }
   if (options.simplifies()) {

@@ -47,6 +47,21 @@ TEST(Retreat, WhatWouldBecomeAPointStopsHalfWay) {
   }
 }
 
+TEST(Retreat, StopsAtFloatsWhereAFileKeepsThose) {
+  TriangleSoup soup = test::translated(test::icosphere(2), {1000, 0, 0});
+  for (Point3& p : soup.points) p = kept(p, Coordinates::floats);
+  const std::vector<Point3> centre(soup.points.size(), Point3{1000, 0, 0});
+  const Retreat moved = move_vertices(soup.points, centre, centre, soup.triangles, corners_of(soup),
+                                      silent_observer(), Coordinates::floats);
+  expect_valid(soup, moved);
+  std::size_t rounded = 0;
+  for (std::size_t v = 0; v < soup.points.size(); ++v) {
+    EXPECT_EQ(moved.points[v], kept(moved.points[v], Coordinates::floats));
+    if (moved.points[v] != soup.points[v] + 0.5 * (centre[v] - soup.points[v])) ++rounded;
+  }
+  EXPECT_GT(rounded, soup.points.size() / 4);  // where half the way is no float
+}
+
 TEST(Retreat, TwoSpheresThatWouldCrossStopBeforeThat) {
   TriangleSoup soup = test::icosphere(3);
   const std::size_t first = soup.points.size();

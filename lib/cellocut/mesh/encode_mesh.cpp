@@ -232,13 +232,6 @@ void stream_stl_ascii(const ByteSink& sink, const TriangleSoup& mesh) {
   sink("endsolid\n");
 }
 
-// Volatile, because g++ 12.2 wrongly drops a conversion to float and back where it vectorizes two
-// of them (already at -O2).
-double rounded_to_float(double x) {
-  const volatile float rounded = static_cast<float>(x);
-  return rounded;
-}
-
 void require_one_per_point(const std::string& what, std::size_t count, const TriangleSoup& mesh) {
   if (count == mesh.points.size()) return;
   throw InputError(what + " has " + std::to_string(count) + " values for " +
@@ -294,6 +287,10 @@ std::string encode_mesh(const TriangleSoup& mesh, MeshFormat format,
   return bytes;
 }
 
+Coordinates coordinates_of(MeshFormat format) {
+  return format == MeshFormat::stl ? Coordinates::floats : Coordinates::doubles;
+}
+
 TriangleSoup as_read_back(const TriangleSoup& mesh, MeshFormat format) {
   TriangleSoup seen;
   if (format != MeshFormat::stl && format != MeshFormat::stl_ascii) {
@@ -306,10 +303,7 @@ TriangleSoup as_read_back(const TriangleSoup& mesh, MeshFormat format) {
   for (const Triangle& triangle : mesh.triangles) {
     Triangle merged{};
     for (int k = 0; k < 3; ++k) {
-      Point3 point = mesh.points[triangle[k]];
-      if (format == MeshFormat::stl) {
-        for (double& x : point) x = rounded_to_float(x);
-      }
+      const Point3 point = kept(mesh.points[triangle[k]], coordinates_of(format));
       merged[k] = merger.index_of(point, seen.points);
     }
     seen.triangles.push_back(merged);

@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 
+#include "cellocut/base/coordinates.h"
 #include "cellocut/mesh/triangle_soup.h"
 #include "cellocut/mesh/vertex_attribute.h"
 
@@ -57,6 +58,9 @@ std::string encode_mesh(const TriangleSoup& mesh, MeshFormat format,
 // Writes through AtomicFile. `path` "-" is standard output. Errors: as stream_mesh(); OutputError.
 void write_mesh(const TriangleSoup& mesh, const std::string& path, MeshFormat format,
                 std::span<const VertexAttribute> attributes = {});
+
+// Binary STL keeps floats, all other formats doubles.
+Coordinates coordinates_of(MeshFormat format);
 
 // The mesh that a reader of such a file will see: for binary STL coordinates rounded to float; for
 // both kinds of STL, points of equal coordinates merged; for STL and OFF without colours; otherwise

@@ -8,12 +8,12 @@ namespace cellocut {
 
 FairReport fair_surface(TriangleSoup& surface, const std::vector<std::uint8_t>& supported,
                         const NearestTriangle& input, double step, double clearance,
-                        Observer& observer) {
-  const FairingResult wanted =
-      fair_completed(surface, supported, input, step, clearance, {}, observer);
-  Retreat moved =
-      move_vertices(surface.points, wanted.points, wanted.points, surface.triangles,
-                    corners_by_point(surface.triangles, surface.points.size()), observer);
+                        Observer& observer, Coordinates coordinates) {
+  FairingResult wanted = fair_completed(surface, supported, input, step, clearance, {}, observer);
+  for (Point3& p : wanted.points) p = kept(p, coordinates);
+  Retreat moved = move_vertices(surface.points, wanted.points, wanted.points, surface.triangles,
+                                corners_by_point(surface.triangles, surface.points.size()),
+                                observer, coordinates);
   surface.points = std::move(moved.points);
   FairReport report{.patches = wanted.patches,
                     .patches_left = wanted.patches_left,

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "cellocut/base/coordinates.h"
 #include "cellocut/base/observer.h"
 #include "cellocut/measure/nearest_triangle.h"
 #include "cellocut/mesh/triangle_soup.h"
@@ -23,9 +24,10 @@ struct FairReport {
 };
 
 // Moves the completed patches of a valid surface where fair_completed() (fairing.h) wants them, as
-// far as the surface stays valid (retreat.h). Lengths in input units; `step` is the grid's.
+// far as the surface stays valid (retreat.h). Lengths in input units; `step` is the grid's;
+// vertices stop at `coordinates` alone.
 FairReport fair_surface(TriangleSoup& surface, const std::vector<std::uint8_t>& supported,
                         const NearestTriangle& input, double step, double clearance,
-                        Observer& observer);
+                        Observer& observer, Coordinates coordinates = Coordinates::doubles);
 
 }  // namespace cellocut

@@ -49,7 +49,7 @@ Quantiles quantiles_of(std::span<double> values) {
 
 PullReport pull_to_input(TriangleSoup& surface, const std::vector<std::uint8_t>& supported,
                          const NearestTriangle& input, double expected, double distance,
-                         Observer& observer) {
+                         Observer& observer, Coordinates coordinates) {
   const std::size_t count = surface.points.size();
   // (Memory that the threads touch first, each its part.)
   const auto from = std::make_unique_for_overwrite<Point3[]>(count);
@@ -67,18 +67,18 @@ PullReport pull_to_input(TriangleSoup& surface, const std::vector<std::uint8_t>&
     offset[v] = nearest.distance;
     if (!(nearest.distance > distance)) return;
     sides[v] = (1 / nearest.distance) * (from[v] - nearest.point);
-    to[v] = nearest.point + distance * sides[v];
+    to[v] = kept(nearest.point + distance * sides[v], coordinates);
     offset[v] = distance;
   });
   const Buckets corners_at = corners_by_point(surface.triangles, count);
   const CreaseSlide slide({from.get(), count}, surface.triangles, corners_at, {sides.get(), count},
                           input, expected, distance);
   tbb::parallel_for(std::size_t{0}, count, [&](std::size_t v) {
-    surface.points[v] = slide(static_cast<std::uint32_t>(v), to[v]);
+    surface.points[v] = kept(slide(static_cast<std::uint32_t>(v), to[v]), coordinates);
   });
   observer.check();
   Retreat moved = move_vertices({from.get(), count}, {to.get(), count}, std::move(surface.points),
-                                surface.triangles, corners_at, observer);
+                                surface.triangles, corners_at, observer, coordinates);
   const Outcome outcome = tbb::parallel_reduce(
       tbb::blocked_range<std::size_t>(0, count), Outcome{},
       [&](const auto& range, Outcome sum) {

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "cellocut/base/coordinates.h"
 #include "cellocut/base/observer.h"
 #include "cellocut/measure/nearest_triangle.h"
 #include "cellocut/mesh/triangle_soup.h"
@@ -36,10 +37,11 @@ struct PullReport {
 // of it, as no vertex passes its nearest point. Vertices at concave creases of the input slide
 // further, towards the bottom of the crease (crease_slide.h). Vertices retreat (retreat.h) where
 // the surface would not stay valid. `expected` is how far supported vertices are from the input,
-// about (the search begins there). Precondition: the surface is valid. O(n log n). Errors:
+// about (the search begins there). Vertices stop at `coordinates` alone. Precondition: the surface
+// is valid, and its points are such. O(n log n). Errors:
 // Cancelled, and then the surface has lost its points.
 PullReport pull_to_input(TriangleSoup& surface, const std::vector<std::uint8_t>& supported,
                          const NearestTriangle& input, double expected, double distance,
-                         Observer& observer);
+                         Observer& observer, Coordinates coordinates = Coordinates::doubles);
 
 }  // namespace cellocut

@@ -36,8 +36,14 @@ void join(std::vector<T>& values, const std::vector<T>& more) {
 class Movement {
  public:
   Movement(std::span<const Point3> from, std::span<const Point3> to, std::vector<Point3> beyond,
-           const std::vector<Triangle>& triangles, const Buckets& corners_at, Observer& observer)
-      : from_(from), to_(to), triangles_(triangles), corners_at_(corners_at), observer_(observer) {
+           const std::vector<Triangle>& triangles, const Buckets& corners_at, Observer& observer,
+           Coordinates coordinates)
+      : from_(from),
+        to_(to),
+        triangles_(triangles),
+        corners_at_(corners_at),
+        observer_(observer),
+        coordinates_(coordinates) {
     result_.points = std::move(beyond);
     result_.halvings.assign(from.size(), 0);
     result_.fell_short.assign(from.size(), 0);
@@ -192,7 +198,8 @@ class Movement {
         stuck.push_back(v);
       } else {
         ++result_.halvings[v];
-        result_.points[v] = from_[v] + std::ldexp(1.0, -result_.halvings[v]) * (to_[v] - from_[v]);
+        const Point3 part = std::ldexp(1.0, -result_.halvings[v]) * (to_[v] - from_[v]);
+        result_.points[v] = kept(from_[v] + part, coordinates_);
         changed.push_back(v);
       }
     }
@@ -224,6 +231,7 @@ class Movement {
   const std::vector<Triangle>& triangles_;
   const Buckets& corners_at_;
   Observer& observer_;
+  Coordinates coordinates_;
   Retreat result_;
 };
 
@@ -231,8 +239,8 @@ class Movement {
 
 Retreat move_vertices(std::span<const Point3> from, std::span<const Point3> to,
                       std::vector<Point3> beyond, const std::vector<Triangle>& triangles,
-                      const Buckets& corners_at, Observer& observer) {
-  return Movement(from, to, std::move(beyond), triangles, corners_at, observer).run();
+                      const Buckets& corners_at, Observer& observer, Coordinates coordinates) {
+  return Movement(from, to, std::move(beyond), triangles, corners_at, observer, coordinates).run();
 }
 
 }  // namespace cellocut

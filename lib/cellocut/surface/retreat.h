@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cellocut/base/buckets.h"
+#include "cellocut/base/coordinates.h"
 #include "cellocut/base/observer.h"
 #include "cellocut/mesh/triangle_soup.h"
 
@@ -40,10 +41,15 @@ struct Retreat {
 // `beyond`: a vertex is first tried there; where that does not do it goes back to `to`, and from
 // then on as above. Pass `to` where there is no such place.
 //
-// Preconditions: the mesh is valid at `from`; the three have the same size, all finite. The same
-// for any number of threads. O(n log n + rounds * faces that were bad). Errors: Cancelled.
+// `coordinates`: where a file will keep floats, points stop at floats alone, so that the surface is
+// valid as it reads back.
+//
+// Preconditions: the mesh is valid at `from`; all three are `kept` coordinates already, and have
+// the same size, all finite. The same for any number of threads. O(n log n + rounds * faces that
+// were bad). Errors: Cancelled.
 Retreat move_vertices(std::span<const Point3> from, std::span<const Point3> to,
                       std::vector<Point3> beyond, const std::vector<Triangle>& triangles,
-                      const Buckets& corners_at, Observer& observer);
+                      const Buckets& corners_at, Observer& observer,
+                      Coordinates coordinates = Coordinates::doubles);
 
 }  // namespace cellocut

@@ -101,6 +101,10 @@ void add_arguments(CLI::App& app, RemeshArguments& a) {
   app.add_option("--stage-surfaces", a.stage_surfaces,
                  "Folder for the surfaces before the cut: thickened.ply, simplified.ply, "
                  "tetrahedralized.ply");
+  app.add_flag(
+      "--float-coordinates", a.pipeline.options.float_coordinates,
+      "Coordinates that floats hold, so that the surface stays valid in programs that read "
+      "in single precision (binary STL has no others)");
   app.add_flag("--provenance", a.provenance,
                "In a PLY output, for each vertex: nearest_face of the input, distance to it (input "
                "units), supported (1) or completed (0)");

@@ -103,6 +103,7 @@ Json parameters_json(const RemeshResult& result, const RemeshOptions& options) {
           {"fair", options.fair},
           {"faces", options.faces},
           {"max_error", options.max_error},
+          {"float_coordinates", options.float_coordinates},
           {"thickening", options.thickening},
           {"unary", options.unary},
           {"min_component", options.min_component},

@@ -196,7 +196,8 @@ void choose_lambda(RemeshResult& result, CutSolver& solver, LazyNearest& nearest
 void treat_surface(const TriangleSoup& input, const RemeshOptions& options, RemeshResult& result,
                    LazyNearest& nearest_point, StageClock& stage, Observer& observer) {
   const double unit = result.frame.unit;
-  const Coordinates coordinates = coordinates_of(options.output_format);
+  const Coordinates coordinates =
+      options.float_coordinates ? Coordinates::floats : coordinates_of(options.output_format);
   for (Point3& p : result.surface.points) p = kept(p, coordinates);
   if (options.pulls()) {
     result.pull = stage("pull", [&] {

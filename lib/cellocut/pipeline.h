@@ -69,6 +69,7 @@ struct RemeshOptions {
   RelaxationOptions relaxation{};
   // The format that the surface will be written in: it is judged as a reader will see it.
   MeshFormat output_format = MeshFormat::obj;
+  bool float_coordinates = false;  // only such as floats hold, also where the format has doubles
   // Whether supported vertices are pulled to the input; by default with `union_` alone, never with
   // `cells`.
   std::optional<bool> pull;

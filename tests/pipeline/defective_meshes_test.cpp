@@ -77,7 +77,8 @@ TEST_P(DefectiveMesh, IsSoundWithEveryTreatmentOfTheSurface) {
 TEST_P(DefectiveMesh, IsSoundInTheCoordinatesOfABinaryFile) {
   for (const bool treated : {false, true}) {
     RemeshOptions options = at_resolution(128);
-    options.output_format = MeshFormat::stl;
+    options.output_format = treated ? MeshFormat::ply : MeshFormat::stl;
+    options.float_coordinates = treated;
     options.fair = treated;
     options.faces = treated ? 2000 : 0;
     const RemeshResult result = run(GetParam().soup, options);

@@ -241,13 +241,10 @@ std::string describe_defects(const SurfaceReport& report) {
   return text.empty() ? "no faces" : text;
 }
 
-// What else may be written where this format is too coarse for a valid surface.
+// What may be written where this format is too coarse for a valid surface.
 std::string remedy(MeshFormat format) {
-  if (format == MeshFormat::stl) {
-    return "; binary STL keeps floats: use OBJ, PLY or --output-format stl-ascii";
-  }
-  if (format == MeshFormat::stl_ascii) return "; STL merges equal points: use OBJ or PLY";
-  return {};
+  const bool stl = format == MeshFormat::stl || format == MeshFormat::stl_ascii;
+  return stl ? "; STL merges equal points, and binary STL keeps floats: use OBJ or PLY" : "";
 }
 
 // The exit code, and in one line what is wrong, if anything.

@@ -268,7 +268,7 @@ class Comparison {
 Json parameters_json(const CompareArguments& a, const ThreadLimit& limit) {
   const RemeshOptions& options = a.pipeline.options;
   Json json{{"resolution", options.resolution},
-            {"epsilon", "max(1/512, 1/resolution)"},
+            {"epsilon", options.epsilon.value_or(std::max(1.0 / 512, 1.0 / options.resolution))},
             {"decimate", options.decimation.removed_share},
             {"decimation", a.pipeline.decimation},
             {"lambda_fill", to_string(options.lambda_fill)},
@@ -285,9 +285,9 @@ Json parameters_json(const CompareArguments& a, const ThreadLimit& limit) {
             {"time_limit", a.comparison.seconds_limit},
             {"repeats", a.comparison.repeats},
             {"threads", limit.threads()}};
-  if (options.epsilon) json["epsilon"] = *options.epsilon;
   if (options.epsilon_absolute) {
-    json["epsilon"] = fmt::format("{} input units", *options.epsilon_absolute);
+    json["epsilon"] = nullptr;  // another one for each mesh
+    json["epsilon_abs"] = *options.epsilon_absolute;
   }
   return json;
 }

@@ -138,6 +138,7 @@ int lock_folder(const fs::path& folder) {
 // In the child: becomes the engine. Its process group is its own, so that one signal reaches it and
 // its jobs; if this program is killed, the engine ends its jobs and stops.
 [[noreturn]] void become(std::vector<std::string> command, const fs::path& output) {
+  std::signal(SIGINT, SIG_DFL);  // what comes before the engine is there must not be lost
   setpgid(0, 0);
   prctl(PR_SET_PDEATHSIG, SIGTERM);
   dup2(STDERR_FILENO, STDOUT_FILENO);

@@ -33,7 +33,7 @@ struct ComparedBackends {
   std::string input;
   std::string first;
   std::string second;
-  std::optional<double> energy_difference;  // relative; none where one of them was not solved
+  std::optional<double> energy_difference;  // relative; none where one of them has no exact cut
   double differing_cells = 0;               // share
 };
 

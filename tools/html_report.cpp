@@ -225,7 +225,7 @@ std::string backend_card(const Json& pairs) {
                         escape_html(pair["second"].get<std::string>()));
     const Json& energy = pair["energy_difference"];
     text += cell("energy_difference", energy,
-                 energy.is_null() ? "not solved" : fmt::format("{:.2e}", energy.get<double>()));
+                 energy.is_null() ? "none" : fmt::format("{:.2e}", energy.get<double>()));
     text += cell("differing_cells", pair["differing_cells"],
                  fmt::format("{:.4f} %", 100 * pair["differing_cells"].get<double>())) +
             "</tr>\n";

@@ -211,13 +211,16 @@ int run_path(PathArguments& a) {
     throw GuaranteeError("no cell is interior, there is no solid");
   }
   observer.stage("path");
+  std::optional<PathChecker> checker;
+  if (options.support == SupportRule::facets) checker.emplace(path_checker(result, options));
   Stopwatch stopwatch;
-  PathChecker checker = path_checker(result, options);
-  const CellPath path = find_path(result, range.first, range.last, *solver, observer, &checker);
+  const CellPath path =
+      find_path(result, range.first, range.last, *solver, observer, checker ? &*checker : nullptr);
   result.stages.push_back({"path", stopwatch.seconds(), peak_memory_bytes()});
   observer.stage("certificate");
   stopwatch.restart();
-  const CertificateReport certificate = checker.check(path);
+  if (!checker) checker.emplace(path_checker(result, options));
+  const CertificateReport certificate = checker->check(path, {range.first, range.last});
   result.stages.push_back({"certificate", stopwatch.seconds(), peak_memory_bytes()});
   const std::vector<PathEntry> entries =
       path_entries(result, path, path_solids(result.complex, path));

@@ -236,13 +236,19 @@ std::string describe_defects(const SurfaceReport& report) {
   add(report.by_index.nonmanifold_edges, "non-manifold edges");
   add(report.by_index.nonmanifold_vertices, "non-manifold vertices");
   add(report.by_index.misoriented_edges, "misoriented edges");
+  add(report.nonfinite_points, "points not finite");
   add(report.degenerate_faces, "degenerate faces");
   add(report.intersecting_pairs, "intersecting pairs");
   return text.empty() ? "no faces" : text;
 }
 
-// What may be written where this format is too coarse for a valid surface.
-std::string remedy(MeshFormat format) {
+// What may be tried where these coordinates are too coarse for a valid surface.
+std::string remedy(const RemeshOptions& options) {
+  if (options.float_coordinates) {
+    return "; floats may be too coarse for coordinates so far from the origin: try without "
+           "--float-coordinates";
+  }
+  const MeshFormat format = options.output_format;
   const bool stl = format == MeshFormat::stl || format == MeshFormat::stl_ascii;
   return stl ? "; STL merges equal points, and binary STL keeps floats: use OBJ or PLY" : "";
 }
@@ -272,8 +278,7 @@ Verdict judge(const RemeshResult& result, const RemeshArguments& a) {
   }
   if (!result.surface_report.valid()) {
     return {kNoGuarantee, a.output + ": not written, the surface would not be valid (" +
-                              describe_defects(result.surface_report) + ")" +
-                              remedy(a.options().output_format)};
+                              describe_defects(result.surface_report) + ")" + remedy(a.options())};
   }
   return {};
 }

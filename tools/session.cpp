@@ -1,5 +1,6 @@
 #include "tools/session.h"
 
+#include <fcntl.h>
 #include <fmt/core.h>
 #include <tbb/global_control.h>
 #include <tbb/info.h>
@@ -143,8 +144,10 @@ void require_writable(const std::vector<std::string>& paths,
   for (const std::string& path : paths) {
     if (path.empty() || path == "-") continue;
     std::error_code unknown;
-    if (fs::is_fifo(path, unknown)) {  // whoever reads it would take a probe for the whole
-      if (access(path.c_str(), W_OK) != 0) {
+    const bool is_descriptor = path.starts_with("/dev/") || path.starts_with("/proc/");
+    if (fs::is_fifo(path, unknown) && !is_descriptor) {
+      // Not opened: whoever reads it would take a probe for the whole.
+      if (faccessat(AT_FDCWD, path.c_str(), W_OK, AT_EACCESS) != 0) {
         throw UsageError(path + ": cannot be written: " + std::generic_category().message(errno));
       }
       continue;

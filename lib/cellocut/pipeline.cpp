@@ -190,6 +190,13 @@ void choose_lambda(RemeshResult& result, CutSolver& solver, LazyNearest& nearest
                                   result.derived.lambda_fill);
 }
 
+// Whether the surface is valid in such coordinates.
+bool round_surface(TriangleSoup& surface, Coordinates coordinates, Observer& observer) {
+  if (coordinates == Coordinates::doubles) return true;
+  for (Point3& p : surface.points) p = kept(p, coordinates);
+  return inspect_surface(surface, {.observer = &observer}).valid();
+}
+
 // What is done to the extracted surface, in the coordinates that its file keeps: the supported part
 // goes to the input, the completed one where it bends least; then fewer triangles, and where each
 // vertex comes from.
@@ -198,7 +205,10 @@ void treat_surface(const TriangleSoup& input, const RemeshOptions& options, Reme
   const double unit = result.frame.unit;
   const Coordinates coordinates =
       options.float_coordinates ? Coordinates::floats : coordinates_of(options.output_format);
-  for (Point3& p : result.surface.points) p = kept(p, coordinates);
+  if (!round_surface(result.surface, coordinates, observer)) {
+    adopt_read_back(result, options.output_format);  // to be refused
+    return;
+  }
   if (options.pulls()) {
     result.pull = stage("pull", [&] {
       return pull_to_input(result.surface, result.supported, nearest_point(),

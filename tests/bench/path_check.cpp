@@ -60,7 +60,7 @@ bool agrees(const std::string& file, int resolution) {
   options.lambda_fill = {1, 1};
   const RemeshResult result = pose_cut(read_mesh(file), options, *backends::make("cgal"));
   const CellPath path = find_path(result, {1, 1}, {1000, 1}, *solvers::make("push_relabel"));
-  const bool valid = path_checker(result, options).check(path).valid;
+  const bool valid = path_checker(result, options).check(path, {{1, 1}, {1000, 1}}).valid;
   std::mt19937_64 random(1);
   int agreed = 0;
   constexpr int kLambdas = 20;

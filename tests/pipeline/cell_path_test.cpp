@@ -39,7 +39,7 @@ class CellPaths : public ::testing::TestWithParam<Case> {
   }
 
   [[nodiscard]] CertificateReport check(const CellPath& path) const {
-    return path_checker(result_, options_).check(path);
+    return path_checker(result_, options_).check(path, {kFirst, kLast});
   }
 
   RemeshOptions options_;
@@ -161,7 +161,12 @@ TEST_P(CellPaths, HaveACertificateThatRefusesWhatIsWrong) {
   }
   EXPECT_GE(kinds, 2);
   // A wider range than the flow is for.
-  expect_refused("conservation", [](CellPath& p) { p.path.first = {1, 2}; });
+  CellPath wide = path_;
+  wide.path.first = {1, 2};
+  const CertificateReport wider = path_checker(result_, options_).check(wide, {{1, 2}, kLast});
+  EXPECT_TRUE(wider.checks[4].passed) << wider.checks[4].name;
+  EXPECT_FALSE(wider.checks[5].passed) << wider.checks[5].name;
+  expect_refused("breakpoints", [](CellPath& p) { p.path.first = {1, 2}; });  // or than asked for
   // A labelling that is left out: its zone joins the next one, with areas and crossing to match.
   // (Whether capacities or balances tell first depends on the zones.)
   if (path_.count() >= 3) {
@@ -238,12 +243,12 @@ TEST_P(CellPaths, HaveNoCertificateInAUnitThatAreasDoNotFitInto) {
 }
 
 TEST_P(CellPathsByFacets, HaveACertificateThatRefusesWhatIsWrong) {
-  ASSERT_TRUE(checker_->check(path_).valid);
+  ASSERT_TRUE(checker_->check(path_, {kFirst, kLast}).valid);
   const auto expect_refused = [&](const std::string& at,
                                   const std::function<void(CellPath&)>& corrupt) {
     CellPath wrong = path_;
     corrupt(wrong);
-    for (const CertificateCheck& c : checker_->check(wrong).checks) {
+    for (const CertificateCheck& c : checker_->check(wrong, {kFirst, kLast}).checks) {
       if (c.passed) continue;
       EXPECT_EQ(c.name, at);
       return;
@@ -260,8 +265,11 @@ TEST_P(CellPathsByFacets, HaveACertificateThatRefusesWhatIsWrong) {
   expect_refused("areas", [&](CellPath& p) { p.interior[0][free].flip(); });
   expect_refused("areas", [](CellPath& p) { ++p.path.areas[0].supported; });
   expect_refused("breakpoints", [](CellPath& p) { ++p.path.breakpoints[0].p; });
-  expect_refused("flows", [](CellPath& p) { p.path.first = {1, 2}; });
-  expect_refused("flows", [](CellPath& p) { p.path.last = {1001, 1}; });
+  expect_refused("breakpoints", [](CellPath& p) { p.path.first = {1, 2}; });
+  expect_refused("breakpoints", [](CellPath& p) { p.path.last = {1001, 1}; });
+  CellPath wide = path_;
+  wide.path.first = {1, 2};
+  EXPECT_FALSE(checker_->check(wide, {{1, 2}, kLast}).checks.back().passed);
   // A labelling that is left out, with areas and crossing to match.
   ASSERT_GE(path_.count(), 3U);
   for (std::size_t k = 1; k + 1 < path_.count(); ++k) {
@@ -295,7 +303,7 @@ TEST_P(CellPathsByFacets, AreProvedByMaximumFlowsAlone) {
                      change(flow);
                      checker.add_flow(lambda, flow);
                    });
-    return checker.check(path_).valid;
+    return checker.check(path_, {kFirst, kLast}).valid;
   };
   EXPECT_TRUE(is_proved([](std::vector<Wide>&) {}));
   EXPECT_FALSE(is_proved([](std::vector<Wide>& flow) { flow.clear(); }));
@@ -303,7 +311,48 @@ TEST_P(CellPathsByFacets, AreProvedByMaximumFlowsAlone) {
   EXPECT_FALSE(is_proved([](std::vector<Wide>& flow) {  // more than capacities allow
     for (Wide& f : flow) f *= 1000;
   }));
-  EXPECT_FALSE(path_checker(result_, options_).check(path_).valid);  // has seen none
+  EXPECT_FALSE(
+      path_checker(result_, options_).check(path_, {kFirst, kLast}).valid);  // has seen none
+}
+
+// A flow that breaks capacities may have the bound that a wrong labelling costs: here a maximum
+// flow where edges between free cells are a thousand times as wide.
+TEST_P(CellPathsByFacets, AreNotProvedByFlowsThatAreTooLarge) {
+  constexpr Lambda kNear{1001, 1000};
+  PathChecker checker = path_checker(result_, options_);
+  std::vector<CutLabels> sides;
+  for (const Lambda& lambda : {kFirst, kNear}) {
+    CellGraph graph = build_cell_graph(result_.complex, result_.facets, result_.areas,
+                                       result_.anchors, {lambda.p, lambda.q});
+    for (CutEdge& edge : graph.problem.edges) {
+      edge.capacity *= 1000;
+      edge.reverse_capacity *= 1000;
+    }
+    const CutResult cut = solvers::make("push_relabel")->solve(graph.problem);
+    std::vector<Wide> flow(result_.facets.size(), 0);
+    for (std::size_t e = 0; e < cut.edge_flow.size(); ++e) {
+      flow[graph.edge_facet[e]] = cut.edge_flow[e];
+    }
+    checker.add_flow(lambda, flow);
+    sides.push_back(cut.largest_source_side);
+  }
+  ASSERT_EQ(sides[0], sides[1]);
+  CellPath wrong;
+  wrong.path.nested = false;
+  wrong.path.first = kFirst;
+  wrong.path.last = kNear;
+  const CellLabels labels = expand_labels(result_.graph, sides[0]);
+  std::vector<bool> interior(labels.size());
+  for (std::size_t c = 0; c < labels.size(); ++c) interior[c] = labels[c] == kInterior;
+  wrong.interior.push_back(std::move(interior));
+  const ParametricProblem problem =
+      make_parametric_problem(result_.graph, result_.facets, result_.areas);
+  wrong.path.areas.push_back(areas_of(problem, sides[0]));
+  ASSERT_GT(cost_at(wrong.path.areas[0], kFirst), cost_at(path_.path.areas[0], kFirst));
+  const CertificateReport report = checker.check(wrong, {kFirst, kNear});
+  for (const CertificateCheck& check : report.checks) {
+    EXPECT_EQ(check.passed, check.name != "flows") << check.name << ": " << check.detail;
+  }
 }
 
 TEST_P(CellPathsByFacets, ACutWithOtherSupportThanClaimedIsRefused) {

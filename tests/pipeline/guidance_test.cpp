@@ -70,7 +70,7 @@ TEST(Guidance, GoesWithThePathAndTheAutomaticWeight) {
   RemeshOptions options = guided_options({.inside = {{0, 0, 0}}, .outside = {{0, 0, 1.2}}}, 1);
   const RemeshResult result = pose_cut(test::sphere_with_hole(), options, *backends::make("cgal"));
   const CellPath path = find_path(result, {1, 1}, {1000, 1}, *solvers::make("bk"));
-  EXPECT_TRUE(path_checker(result, options).check(path).valid);
+  EXPECT_TRUE(path_checker(result, options).check(path, {{1, 1}, {1000, 1}}).valid);
   const GuidedCells nobody;
   const PathChecker unguided({.complex = result.complex,
                               .initial = result.initial_label,
@@ -78,7 +78,7 @@ TEST(Guidance, GoesWithThePathAndTheAutomaticWeight) {
                               .guided = nobody,
                               .unit = result.frame.unit,
                               .area_bits = options.area_bits});
-  EXPECT_FALSE(unguided.check(path).valid);
+  EXPECT_FALSE(unguided.check(path, {{1, 1}, {1000, 1}}).valid);
   for (const std::uint32_t cell : result.guided.inside) EXPECT_EQ(path.level[cell], path.count());
   options.lambda_auto = true;
   expect_sound(run(test::sphere_with_hole(), options));

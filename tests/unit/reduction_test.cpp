@@ -108,7 +108,6 @@ TEST(Reduction, ADominatedNodeBecomesSourcesOfItsNeighbours) {
   EXPECT_EQ(reduction.lift(left.edge_flow), (std::vector<std::int64_t>{2, -1, 0}));
 }
 
-// Labels of a minimum cut of what is left, lifted, are those of a minimum cut of the whole.
 // Joining the leaves wakes their hub each time, which must not walk over all that have gone.
 TEST(Reduction, TakesLeavesOffAHubInNoMoreThanAFewStepsEach) {
   constexpr std::uint32_t kLeaves = 1'000'000;
@@ -127,6 +126,7 @@ TEST(Reduction, TakesLeavesOffAHubInNoMoreThanAFewStepsEach) {
   EXPECT_EQ(GivenFlow(flow).solve(problem).value, 3);
 }
 
+// Labels of a minimum cut of what is left, lifted, are those of a minimum cut of the whole.
 TEST(Reduction, LiftsLabels) {
   for (const testing::RandomShape shape : testing::random_shapes()) {
     for (std::uint64_t seed = 1; seed <= 30; ++seed) {

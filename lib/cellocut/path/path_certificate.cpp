@@ -102,8 +102,8 @@ void PathChecker::add_flow(const Lambda& lambda, const std::vector<Wide>& facet_
 // The checks of one path.
 class PathCheck {
  public:
-  PathCheck(const PathChecker& checker, const CellPath& path)
-      : checker_(checker), cells_(path), path_(path.path), highest_(path.count()) {}
+  PathCheck(const PathChecker& checker, const CellPath& path, const LambdaInterval& range)
+      : checker_(checker), cells_(path), path_(path.path), range_(range), highest_(path.count()) {}
 
   [[nodiscard]] CertificateReport run() const {
     CertificateReport report;
@@ -149,6 +149,7 @@ class PathCheck {
   const PathChecker& checker_;
   const CellPath& cells_;
   const FillPath& path_;
+  const LambdaInterval& range_;
   std::size_t highest_;
 };
 
@@ -231,6 +232,7 @@ std::string PathCheck::breakpoints() const {
   if (path_.first.p < 1 || path_.first.q < 1 || path_.last.q < 1 || !(path_.first < path_.last)) {
     return "the range is none";
   }
+  if (!(path_.first == range_.from && path_.last == range_.to)) return "the range is another one";
   for (std::size_t k = 0; k + 1 < highest_; ++k) {
     const Lambda& lambda = path_.breakpoints[k];
     const Lambda& before = k == 0 ? path_.first : path_.breakpoints[k - 1];
@@ -264,7 +266,8 @@ std::string PathCheck::flows() const {
   const auto is_proved = [&](const Lambda& lambda, const InterfaceAreas& areas) {
     const Wide cost = cost_at(areas, lambda);
     return std::any_of(checker_.bounds_.begin(), checker_.bounds_.end(), [&](const auto& bound) {
-      return bound.first == lambda && bound.second == cost;
+      // (Costs are in units that change with the terms of the fraction.)
+      return bound.first.p == lambda.p && bound.first.q == lambda.q && bound.second == cost;
     });
   };
   if (!is_proved(path_.first, path_.areas.front())) return "no flow proves the first labelling";
@@ -322,8 +325,8 @@ std::string PathCheck::conservation() const {
   return {};
 }
 
-CertificateReport PathChecker::check(const CellPath& path) const {
-  return PathCheck(*this, path).run();
+CertificateReport PathChecker::check(const CellPath& path, const LambdaInterval& range) const {
+  return PathCheck(*this, path, range).run();
 }
 
 }  // namespace cellocut

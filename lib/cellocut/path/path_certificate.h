@@ -25,10 +25,11 @@
 //
 // Where support is measured on facets labellings are not nested, and this proof does not hold.
 // There it takes a flow at each breakpoint and end of the range, of whose capacities at that lambda
-// no labelling can cost less than the flow's bound: the sum over free cells of the lesser of what
-// interior anchors give (the cost to be exterior) and what the exterior takes plus what the cell
-// sends on (to be interior). Where that is what both neighbours cost, each labelling is a minimum
-// at both ends of its interval, hence between them, as the least cost is concave in lambda.
+// no labelling can cost less than the flow's bound: what facets between opposite anchors cost, and
+// the sum over free cells of the lesser of what interior anchors give (the cost to be exterior) and
+// what the exterior takes plus what the cell sends on (to be interior). Where that is what both
+// neighbours cost, each labelling is a minimum at both ends of its interval, hence between them, as
+// the least cost is concave in lambda.
 //
 // Anchors, areas, levels and flows are checked on the complex itself. With the solvers and the
 // contraction of anchored cells this shares nothing; anchors of L* and quantised areas are those of
@@ -75,15 +76,16 @@ class PathChecker {
   //   anchors       cells that are fixed keep their label in every labelling, and labellings are
   //                 said to be nested where the support makes them so
   //   areas         of each labelling, recomputed
-  //   breakpoints   ascending within the range; both neighbours cost the same there
+  //   breakpoints   the range is the one asked for; ascending within it; both neighbours cost the
+  //                 same there
   //   capacities    |flow| <= capacity within each zone
   //   conservation  what each free cell draws and passes on, as above
   // or, where labellings are not nested, in place of the last two:
   //   flows         at each breakpoint and end a flow was added whose bound is what both neighbours
   //                 cost
   // Never throws for a wrong path; a later check is not passed where an earlier one makes it
-  // meaningless. O(cells + labellings); where not nested, O(cells labellings).
-  [[nodiscard]] CertificateReport check(const CellPath& path) const;
+  // meaningless. O(cells + labellings); where not nested, O((cells + labellings) labellings).
+  [[nodiscard]] CertificateReport check(const CellPath& path, const LambdaInterval& range) const;
 
  private:
   friend class PathCheck;

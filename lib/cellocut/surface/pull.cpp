@@ -68,7 +68,7 @@ PullReport pull_to_input(TriangleSoup& surface, const std::vector<std::uint8_t>&
     if (!(nearest.distance > distance)) return;
     sides[v] = (1 / nearest.distance) * (from[v] - nearest.point);
     to[v] = kept(nearest.point + distance * sides[v], coordinates);
-    offset[v] = distance;
+    offset[v] = coordinates == Coordinates::doubles ? distance : norm(to[v] - nearest.point);
   });
   const Buckets corners_at = corners_by_point(surface.triangles, count);
   const CreaseSlide slide({from.get(), count}, surface.triangles, corners_at, {sides.get(), count},
@@ -96,9 +96,9 @@ PullReport pull_to_input(TriangleSoup& surface, const std::vector<std::uint8_t>&
       [](Outcome a, const Outcome& b) { return a += b; });
   surface.points = std::move(moved.points);
 
-  std::size_t kept = 0;  // of `offset`, those of supported vertices
+  std::size_t left = 0;  // of `offset`, those of supported vertices
   for (std::size_t v = 0; v < count; ++v) {
-    if (supported[v] != 0) offset[kept++] = offset[v];
+    if (supported[v] != 0) offset[left++] = offset[v];
   }
   return {.distance = distance,
           .vertices = static_cast<std::int64_t>(count),
@@ -108,7 +108,7 @@ PullReport pull_to_input(TriangleSoup& surface, const std::vector<std::uint8_t>&
           .went_back = outcome.went_back,
           .bad_faces_at_first = moved.bad_faces_at_first,
           .rounds = moved.rounds,
-          .offset = quantiles_of({offset.get(), kept})};
+          .offset = quantiles_of({offset.get(), left})};
 }
 
 }  // namespace cellocut

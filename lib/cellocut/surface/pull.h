@@ -34,12 +34,12 @@ struct PullReport {
 
 // Moves every supported vertex of `surface` (input units) towards its nearest point on the input
 // until `distance` is left; those nearer than that stay. Each side of a sheet keeps to its own side
-// of it, as no vertex passes its nearest point. Vertices at concave creases of the input slide
-// further, towards the bottom of the crease (crease_slide.h). Vertices retreat (retreat.h) where
-// the surface would not stay valid. `expected` is how far supported vertices are from the input,
-// about (the search begins there). Vertices stop at `coordinates` alone. Precondition: the surface
-// is valid, and its points are such. O(n log n). Errors:
-// Cancelled, and then the surface has lost its points.
+// of it, as no vertex passes its nearest point (but by rounding, where floats are so coarse).
+// Vertices at concave creases of the input slide further, towards the bottom of the crease
+// (crease_slide.h). Vertices retreat (retreat.h) where the surface would not stay valid. `expected`
+// is how far supported vertices are from the input, about (the search begins there). Vertices stop
+// at `coordinates` alone. Precondition: the surface is valid, and its points are such. O(n log n).
+// Errors: Cancelled, and then the surface has lost its points.
 PullReport pull_to_input(TriangleSoup& surface, const std::vector<std::uint8_t>& supported,
                          const NearestTriangle& input, double expected, double distance,
                          Observer& observer, Coordinates coordinates = Coordinates::doubles);

@@ -110,7 +110,8 @@ CutProblem parse_bbk(std::string_view bytes);
 // that has a terminal capacity, an edge record for each edge that is not a loop. The format has no
 // place for a constant: it is added to both terminal capacities of node 0, through which it flows
 // in every maximum flow, so the value and the canonical minimum cuts stay; a problem that has a
-// constant and no node gets a node for it.
+// constant and no node gets a node for it. (parse_bbk() refuses as many nodes with as few arcs as
+// parse_dimacs() does.)
 // Precondition: problem.validate() holds. Errors: LimitError where a value does not fit the type,
 // or where the constant, counted twice, brings the sum of capacities to 2^62 or more.
 // O(nodes + edges).

@@ -33,8 +33,8 @@ std::vector<SheetSample> sample_sheets(const TetComplex& complex, const FacetLis
                                        const NearestTriangle& input, double offset,
                                        Observer& observer);
 
-// By labelling of the path; a cell of the slab behind a sheet is solid. Precondition: labellings are
-// nested. O(samples + labellings).
+// By labelling of the path; a cell of the slab behind a sheet is solid. Precondition: labellings
+// are nested. O(samples + labellings).
 std::vector<SheetSides> measure_sheet_sides(const std::vector<SheetSample>& samples,
                                             const CellPath& path);
 

@@ -170,11 +170,13 @@ class Provenance(ProgramCase):
     def test_vtp_of_an_stl_has_the_values_of_its_own_points(self):
         seen = {}
         for name in ("out.obj", "out.stl"):
-            self.succeed("remesh", "holed.obj", "-o", name, "--vtp", "out.vtp", "--quiet", *COARSE)
+            self.succeed("remesh", "holed.obj", "-o", name, "--vtp", "out.vtp", "--quiet", "--float-coordinates",
+                         *COARSE)
             rows = self.rows("out.vtp")
             self.check_vertices(rows)
-            seen[name] = sorted((*struct.unpack("<3f", struct.pack("<3f", v["x"], v["y"], v["z"])),
-                                 v["supported"]) for v in rows)
+            seen[name] = sorted((v["x"], v["y"], v["z"], v["supported"]) for v in rows)
+            for point in seen[name]:
+                self.assertEqual(point[:3], struct.unpack("<3f", struct.pack("<3f", *point[:3])))
         self.assertEqual(seen["out.stl"], seen["out.obj"])  # nothing merges here, but all are renumbered
 
     @unittest.skipUnless(HAS_VTP, "built without VTK")

@@ -1,6 +1,7 @@
 #include "tools/labelled_cells.h"
 
 #include "cellocut_version.h"
+#include "tools/report_json.h"
 
 namespace cellocut::tools {
 
@@ -89,21 +90,17 @@ viz::LabelledCells labelled_cells(const RemeshResult& result, const RemeshOption
       {"unit", result.frame.unit},
       {"area_bits", static_cast<std::int64_t>(options.area_bits)},
       {"area_quantum", 1 / result.areas.scale},
-      {"support", std::string(options.support == SupportRule::labels ? "labels" : "facets")},
-      {"exterior",
-       std::string(options.exterior == ExteriorMode::unbounded ? "unbounded" : "hull-cells")},
+      {"support", std::string(name_of(options.support))},
+      {"exterior", std::string(name_of(options.exterior))},
       {"decimate", options.decimation.removed_share},
-      {"decimation",
-       std::string(options.decimation.method == DecimationMethod::clusters ? "clusters"
-                                                                           : "quadric")},
+      {"decimation", std::string(name_of(options.decimation.method))},
       {"thickening", std::int64_t{options.thickening}},
       {"unary", std::int64_t{options.unary}},
   };
   if (!solver.empty()) cells.fields.push_back({"solver", solver});
   if (!result.label.empty() || !result.cut.relaxed.empty()) {
     const double energy = static_cast<double>(result.cut.value) * energy_unit;
-    cells.fields.push_back(
-        {"cut", std::string(options.cut == CutChoice::largest ? "largest" : "smallest")});
+    cells.fields.push_back({"cut", std::string(name_of(options.cut))});
     cells.fields.push_back({"cut_value", result.cut.value});
     cells.fields.push_back({"cut_lower_bound", result.cut.lower_bound});
     cells.fields.push_back({"energy", energy});

@@ -238,7 +238,7 @@ int run_path(PathArguments& a) {
         {"exterior", a.pipeline.exterior},
         {"guidance", guidance_json(options.guidance)},
         {"area_bits", options.area_bits},
-        {"support", options.support == SupportRule::labels ? "labels" : "facets"},
+        {"support", a.pipeline.support},
         {"backend", a.backend},
         {"solver", a.solver},
         {"range", {to_double(range.first), to_double(range.last)}}}}};

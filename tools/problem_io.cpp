@@ -1,7 +1,6 @@
 #include "tools/problem_io.h"
 
 #include <algorithm>
-#include <cctype>
 #include <nlohmann/json.hpp>
 
 #include "cellocut/base/errors.h"

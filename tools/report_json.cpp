@@ -89,14 +89,13 @@ Json parameters_json(const RemeshResult& result, const RemeshOptions& options) {
           {"grid_step", result.frame.spacing},
           {"unit", result.frame.unit},
           {"decimate", options.decimation.removed_share},
-          {"decimation",
-           options.decimation.method == DecimationMethod::clusters ? "clusters" : "quadric"},
+          {"decimation", name_of(options.decimation.method)},
           {"lambda_fill", to_string(result.derived.lambda_fill)},
-          {"support", options.support == SupportRule::labels ? "labels" : "facets"},
-          {"exterior", options.exterior == ExteriorMode::unbounded ? "unbounded" : "hull-cells"},
+          {"support", name_of(options.support)},
+          {"exterior", name_of(options.exterior)},
           {"guidance", guidance_json(options.guidance)},
           {"area_bits", options.area_bits},
-          {"cut", options.cut == CutChoice::largest ? "largest" : "smallest"},
+          {"cut", name_of(options.cut)},
           {"surface", surface_name(options.surface)},
           {"pull", options.pulls()},
           {"pull_distance", result.derived.pull_distance},
@@ -193,6 +192,17 @@ Json certificate_json(const CertificateReport& certificate) {
     checks.push_back({{"name", check.name}, {"passed", check.passed}, {"detail", check.detail}});
   }
   return {{"valid", certificate.valid}, {"checks", checks}};
+}
+
+const char* name_of(DecimationMethod method) {
+  return method == DecimationMethod::clusters ? "clusters" : "quadric";
+}
+const char* name_of(SupportRule rule) { return rule == SupportRule::labels ? "labels" : "facets"; }
+const char* name_of(ExteriorMode mode) {
+  return mode == ExteriorMode::unbounded ? "unbounded" : "hull-cells";
+}
+const char* name_of(CutChoice choice) {
+  return choice == CutChoice::largest ? "largest" : "smallest";
 }
 
 Json output_json(const SurfaceReport& report, const std::string& path) {

@@ -17,6 +17,12 @@ struct RunFacts {
   std::vector<StageTime> stages;  // with reading and writing
 };
 
+// The choices as the command line names them.
+const char* name_of(DecimationMethod method);
+const char* name_of(SupportRule rule);
+const char* name_of(ExteriorMode mode);
+const char* name_of(CutChoice choice);
+
 // `output` of a report: path, validity, counts, components.
 nlohmann::ordered_json output_json(const SurfaceReport& report, const std::string& path);
 

@@ -73,6 +73,7 @@ double count_cells(const TriangleSoup& input, int resolution, double epsilon_ste
   return static_cast<double>(all.size()) * (cell / kCell) * (cell / kCell);
 }
 
+// With the offset of the options, also where another resolution would not take it.
 std::int64_t estimate(const TriangleSoup& input, const RemeshOptions& options, int resolution) {
   const double epsilon_steps = derive_parameters(input, options).epsilon * resolution;
   const double per_cell = kPerCell + kPerCellUndecimated * (1 - options.decimation.removed_share);

@@ -6,9 +6,9 @@
 
 namespace cellocut {
 
-__extension__ using Int128 = __int128;
+__extension__ using Wide = __int128;
 
-inline std::string to_decimal(Int128 number) {
+inline std::string to_decimal(Wide number) {
   const bool negative = number < 0;
   std::string digits;  // last first
   do {

@@ -9,8 +9,6 @@ namespace cellocut {
 
 namespace {
 
-__extension__ using Wide = __int128;
-
 std::string pair_of(const DimacsArc& arc) {
   return "from " + std::to_string(arc.from) + " to " + std::to_string(arc.to);
 }

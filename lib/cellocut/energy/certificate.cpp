@@ -38,8 +38,7 @@ namespace cellocut {
 
 namespace {
 
-// Capacities reach 2^70 (area_bits 50, lambda 2^20), sums of them 2^72; 64 bits would wrap.
-__extension__ using Wide = __int128;
+// (Wide: capacities reach 2^70 (area_bits 50, lambda 2^20), sums of them 2^72; 64 bits would wrap.)
 
 // What one check found.
 struct Finding {

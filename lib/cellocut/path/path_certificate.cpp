@@ -94,8 +94,9 @@ void PathChecker::add_flow(const Lambda& lambda, const std::vector<Wide>& facet_
       bound += cost;
     }
   }
-  for (std::size_t c = 0; c < anchors_.size(); ++c)
+  for (std::size_t c = 0; c < anchors_.size(); ++c) {
     bound += std::min(if_exterior[c], if_interior[c]);
+  }
   bounds_.emplace_back(lambda, bound);
 }
 

@@ -16,8 +16,9 @@ namespace {
 
 Point3 break_ties(const Point3& p) {
   std::uint64_t hash = 0;
-  for (const double x : p)
+  for (const double x : p) {
     hash = mix_bits(hash + 0x9E3779B97F4A7C15U + std::bit_cast<std::uint64_t>(x));
+  }
   Point3 moved = p;
   for (double& x : moved) {
     hash = mix_bits(hash + 0x9E3779B97F4A7C15U);
